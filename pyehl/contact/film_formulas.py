@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Film thickness of a case by closed formulas."""
+"""Film thickness of a case by closed formulas: the summary and the page of ``pyehl film``."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -15,7 +15,7 @@ from pyehl.theory.moes_film import regime
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings
 
-# Inlet, without the pressure of a flooded contact at it, from which the film is that of one [a]
+# x_inlet with zero pressure at the border up to which the contact counts as flooded [a]
 FLOODED = -2.0
 
 
@@ -26,7 +26,7 @@ class FilmThickness:
     Attributes
     ----------
     summary
-        What ``pyehl film --json`` prints: conditions, Moes and Hertz numbers, `formulas` and, of a
+        Output of ``pyehl film --json``: conditions, Moes and Hertz numbers, `formulas` and, for a
         rough surface, its rms height and film ratio.
     """
 
@@ -39,11 +39,11 @@ class FilmThickness:
         return result
 
     def __repr__(self) -> str:
-        """Give all of it as a page of text."""
+        """Return the summary as a page of text."""
         return report(self.summary)
 
     def _repr_html_(self) -> str:
-        """Draw the formulas, for notebooks."""
+        """Return a table of the formulas, for notebooks."""
         rows = {
             f"{f['name']}, {name} [nm]": f[f"{name}_m"] * 1e9
             for f in self.formulas
@@ -54,7 +54,7 @@ class FilmThickness:
 
 
 def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:
-    """List keys of a resolved case that change the film and are not in the formulas."""
+    """List keys of a resolved case that change the film but do not enter the formulas."""
     result = []
     grid, boundary = (
         settings.get("grid", {}),
@@ -85,11 +85,11 @@ def _inlet(settings: Settings) -> tuple[float, float]:
 
 
 def sheet(settings: Settings) -> dict[str, Any]:
-    """All that ``pyehl film`` reports of a resolved case, as plain numbers in SI units.
+    """Return all that ``pyehl film`` reports of a resolved case, as plain numbers in SI units.
 
     Inputs, Moes and Hertz numbers, one record per formula, and for a rough surface the Lambda
-    ratio and (harmonic only) theta_2 with eq. 16. There are no formulas for an ellipse that is
-    turned against the motion, and nothing of a film.
+    ratio and (harmonic only) theta_2 with eq. 16. An ellipse rotated against the motion has no
+    formulas, so its summary has no film.
     """
     operating, lubricant = contact_of(settings), Lubricant.from_settings(settings)
     line = "_line" if isinstance(operating, LineContact) else ""
@@ -146,7 +146,7 @@ def _rough_groups(settings: Settings) -> list[Mapping[str, Any]]:
 def _films(
     settings: Settings, operating: AnyContact, lubricant: Lubricant
 ) -> list[film.FilmEstimate]:
-    """Films by the formulas, and by those of starvation; none for a turned ellipse."""
+    """Films by the formulas, and by those of starvation; none for a rotated ellipse."""
     position, layer = _inlet(settings)
     if isinstance(operating, LineContact):
         films = line_contact.estimates(operating, lubricant)
@@ -177,12 +177,12 @@ def _of_surfaces(
     lubricant: Lubricant,
     films: Sequence[film.FilmEstimate],
 ) -> dict[str, Any]:
-    """Rms height and film ratio of rough surfaces, and theta_2 of a waviness under a point."""
+    """Rms height and film ratio of rough surfaces; theta_2 of a waviness in a circular contact."""
     result: dict[str, Any] = {}
     both = _rough_groups(settings)
     kinds = {str(surface["kind"]) for surface in both}
     h_c = formula_film(operating, lubricant)
-    # of a line, waves of a height over the film do not determine it
+    # in a line contact, harmonic heights given over the film do not determine an rms height
     unknown = {*surfaces.FEATURES, *(("harmonic",) if operating.ellipse.is_line else ())}
     if both and not kinds & unknown:
         tiles = [
@@ -209,7 +209,7 @@ def _of_surfaces(
 
 
 def _record(formula: film.FilmEstimate, scale: float) -> dict[str, Any]:
-    """Return the films by a formula, in metres and over a scale [m]."""
+    """Return the record of a formula, with films in metres and over a scale [m]."""
     h_c, h_min = (h if math.isfinite(h) else None for h in (formula.h_c, formula.h_min))
     return {
         "name": formula.name,
@@ -237,7 +237,7 @@ def _heat(v: Mapping[str, Any]) -> list[str]:
 
 
 def _of_shape(v: Mapping[str, Any]) -> tuple[str, str, str]:
-    """Return letter of the axis, load with its unit and groups of the regime, if there are any."""
+    """Return the letter of the axis, the load with its unit, and the regime groups, if any."""
     if v.get("shape") == "line":
         return "b", f"{v['load_per_length_N_per_m']:12.5g} N/m", ""
     groups = f"      g_V = {v['g_v']:.4g}, g_E = {v['g_e']:.4g}"
@@ -245,7 +245,7 @@ def _of_shape(v: Mapping[str, Any]) -> tuple[str, str, str]:
 
 
 def _cell(value: float | None, width: int, digits: int) -> str:
-    """Write a film in a field of a width, with the digits of its column unless these are zeros."""
+    """Format a film to a width, with the digits of its column unless they would all be zero."""
     if value is None:
         return f"{'-':>{width}}"
     if value >= 10.0 ** (width - digits - 2):

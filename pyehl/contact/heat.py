@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Frictional heat in a contact: temperatures, and their effect on friction."""
+"""Frictional heating of a contact: temperatures, and their effect on friction."""
 
 import math
 from collections.abc import Sequence
@@ -18,9 +18,9 @@ from pyehl.types import Array, Mask, Settings
 
 @dataclass(frozen=True, slots=True)
 class HeatOf:
-    """The heat of sliding on the nodes x (m,), y (n,) [a] of a resolved case.
+    """Frictional heating on the nodes x (m,), y (n,) [a] of a resolved case.
 
-    The same as in a run (``fortran/reynolds/heated_friction.f90``); `even`: the rows are those of
+    Computed as in a run (``fortran/reynolds/heated_friction.f90``); `even`: the rows are those of
     Y >= 0.
     """
 
@@ -31,7 +31,7 @@ class HeatOf:
     even: bool = False
 
     def __call__(self, pressure: Array, film: Array, touching: Mask) -> Heat:
-        """Give it for P [p_h], H [a^2/R] and where bodies touch at a boundary film, (m, n) each."""
+        """Return it for P [p_h], H [a^2/R] and the nodes in solid contact, (m, n) each."""
         law = {"viscosity_law": self.lubricant.viscosity_law}
         groups = {
             "contact": self.settings["contact"],
@@ -59,7 +59,7 @@ class HeatOf:
 
 
 def mean_heat(parts: Sequence[Heat], weights: Sequence[float]) -> Heat:
-    """Heat of a rough contact in some positions: of friction a mean, of the rises the maximum."""
+    """Heating of a rough contact over its positions: mean friction ratio, maximum increases."""
     ratio = float(np.average([part.ratio for part in parts], weights=weights))
     first, second, third = (float(v) for v in np.max([part.rises for part in parts], axis=0))
     note = parts[0].note if math.isfinite(ratio) else NOT_CONVERGED

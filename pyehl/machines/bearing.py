@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rolling bearings: from dimensions, loads and speeds to the contacts of every element.
+"""Contacts of every element of a rolling bearing from its dimensions, loads and speeds.
 
 Radii and speeds as in Harris & Kotzalas, *Essential Concepts of Bearing Technology*. Elements roll
 freely: both surfaces of a contact have the same velocity.
@@ -25,16 +25,16 @@ from pyehl.theory.ellipse import Ellipse, ellipse
 RINGS = {"inner": 1.0, "outer": -1.0}
 """Rings, and the sign of the curvature of their raceways."""
 # Maximum pressure at the static rating of bearings (ISO 76) [Pa]
-STATIC = {BALL: 4.2e9, ROLLER: 4.0e9}
+STATIC_PRESSURE = {BALL: 4.2e9, ROLLER: 4.0e9}
 # Largest contact angle without load [deg]
-STEEPEST = 60.0
-# Share by which the axial load of a tapered bearing exceeds that of a single loaded roller
-APART = 1e-3
-# Share of the largest load below which a contact may be below the minimum load of the solver
-LIGHT = 0.5
-# Of bearing steel [kg/m^3]
+MAX_ANGLE = 60.0
+# Relative excess of the axial load of a tapered bearing over that which loads a single roller
+AXIAL_MARGIN = 1e-3
+# Fraction of the largest load below which a contact may be too lightly loaded for the solver
+LIGHT_FRACTION = 0.5
+# Density of bearing steel [kg/m^3]
 DENSITY = 7800.0
-# rad/s of 1/min
+# rad/s per 1/min
 TURN = 2.0 * math.pi / 60.0
 
 
@@ -45,15 +45,15 @@ class Bearing:
     Attributes
     ----------
     speed
-        Angular velocity of one ring against the other [rad/s].
+        Angular velocity of one ring relative to the other [rad/s].
     ring
-        Its equilibrium.
+        Equilibrium of the inner ring.
     contacts
-        The loaded ones.
+        Loaded contacts.
     places
-        Of each of them the number of the element, azimuth and contact angle [deg], and the ring.
+        For each contact the element, azimuth and contact angle [deg], and the ring.
     facts
-        Numbers of the whole bearing by name.
+        Quantities of the whole bearing by name.
     """
 
     speed: float
@@ -63,14 +63,14 @@ class Bearing:
     facts: dict[str, float] = field(default_factory=dict)
 
     def add(self, number: int, azimuth: float, angle: float, ring: str, contact: Contact) -> None:
-        """Add a contact, of angles [rad]."""
+        """Add a contact; angles in rad."""
         self.contacts.append(contact)
         angles = {"azimuth_deg": math.degrees(azimuth), "contact_angle_deg": math.degrees(angle)}
         self.places.append({"element": number, "ring": ring, **angles})
 
 
 def ball_bearing(machine: Machine) -> Bearing:
-    """Give the contacts of a ball bearing; InputError at the key that does not fit."""
+    """Return the contacts of a ball bearing; InputError names the key that does not fit."""
     v = machine.values
     machine.wants("ball_diameter", "balls")
     d, pitch = v.ball_diameter, _pitch(machine, v.ball_diameter, v.balls, "balls")
@@ -92,12 +92,12 @@ def ball_bearing(machine: Machine) -> Bearing:
     if clearance < 0.0:
         load = stiffness * (-0.5 * clearance) ** BALL
         radius, shape = shapes[0]
-        a = (1.5 * load * radius / (machine.reduced_modulus * shape.load_share)) ** (1.0 / 3.0)
+        a = (1.5 * load * radius / (machine.reduced_modulus * shape.load_factor)) ** (1.0 / 3.0)
         pressure = 1.5 * load / (math.pi * shape.ellipticity * a**2)
-        # p_h goes with Q^(1/3), Q with delta^(3/2)
-        _check_preload(machine, pressure, STATIC[BALL], 2.0)
+        # p_h is proportional to Q^(1/3), Q to delta^(3/2)
+        _check_preload(machine, pressure, STATIC_PRESSURE[BALL], 2.0)
     ring = equilibrium(stiffness, BALL, v.balls, clearance, (v.radial_load, v.axial_load), centres)
-    result, light = Bearing(speed, ring), LIGHT * float(ring.loads.max())
+    result, light = Bearing(speed, ring), LIGHT_FRACTION * float(ring.loads.max())
     for number, azimuth in enumerate(azimuths(v.balls)):
         load, angle = float(ring.loads[number]), float(ring.angles[number])
         if load == 0.0:
@@ -105,7 +105,7 @@ def ball_bearing(machine: Machine) -> Bearing:
         u = 0.25 * speed * pitch * (1.0 - (d * math.cos(angle) / pitch) ** 2)
         for name, sign in RINGS.items():
             radii = (0.5 * d, 0.5 * d, _raceway(pitch, d, angle, sign), -grooves[name])
-            # the outer raceway controls the spin, which then is on the inner ring (Jones 1959)
+            # outer raceway control: only the inner contact spins (Jones 1959)
             spin = speed * math.sin(angle) if name == "inner" else 0.0
             place = f"ball {number + 1}, {name} ring"
             contact = Contact(place, load, u, 0.0, radii, spin=spin, may_be_light=load < light)
@@ -116,9 +116,9 @@ def ball_bearing(machine: Machine) -> Bearing:
 
 
 def roller_bearing(machine: Machine) -> Bearing:
-    """Give the contacts of a cylindrical or tapered roller bearing; InputError as `ball_bearing`.
+    """Return the contacts of a cylindrical or tapered roller bearing; InputError as `ball_bearing`.
 
-    Cones roll on each other round their common apex. The flange pushes along the axis of a tapered
+    Cones roll on each other about their common apex. The flange pushes along the axis of a tapered
     roller, so that both raceways carry the same load Q, and the flange 2 Q sin(roller_angle).
     """
     v = machine.values
@@ -134,17 +134,17 @@ def roller_bearing(machine: Machine) -> Bearing:
     u = 0.25 * speed * pitch * (1.0 - (d * math.cos(axis) / pitch) ** 2)
 
     def contact(place: str, load: float, name: str, most: float = 0.0) -> Contact:
-        # of cones in the plane across the raceway, at half the length of the roller
+        # radius of the cone in the plane normal to the raceway, at half the length of the roller
         raceway = 0.5 * (RINGS[name] * pitch - d * math.cos(axis)) / math.cos(angles[name])
         radii = (0.5 * d / math.cos(half), math.inf, raceway, math.inf)
-        light = load < LIGHT * most
+        light = load < LIGHT_FRACTION * most
         return Contact(place, load, u, 0.0, radii, length=v.roller_length, may_be_light=light)
 
     if v.clearance < 0.0:
         load = stiffness * (-0.5 * v.clearance * math.cos(outer)) ** ROLLER
         pressure = contact("", load, "inner").line(machine.reduced_modulus).hertz_pressure
-        # p_h goes with Q^(1/2), Q with delta^(10/9)
-        _check_preload(machine, pressure, STATIC[ROLLER], 2.0 / ROLLER)
+        # p_h is proportional to Q^(1/2), Q to delta^(10/9)
+        _check_preload(machine, pressure, STATIC_PRESSURE[ROLLER], 2.0 / ROLLER)
     ring = equilibrium(stiffness, ROLLER, v.rollers, v.clearance, loads, angle=outer)
     result = Bearing(speed, ring)
     for number, azimuth in enumerate(azimuths(v.rollers)):
@@ -160,7 +160,7 @@ def roller_bearing(machine: Machine) -> Bearing:
 
 
 def _check_rollers(machine: Machine) -> None:
-    """Refuse loads that such rollers cannot carry, and angles that do not fit."""
+    """Refuse loads that the rollers cannot carry, and inconsistent angles."""
     v = machine.values
     if v.contact_angle == 0.0:
         machine.wants("radial_load")
@@ -173,7 +173,7 @@ def _check_rollers(machine: Machine) -> None:
         what = f"a roller_angle of {v.roller_angle:g} deg leaves no cone on the inner ring"
         machine.refuse("roller_angle", what, f"at most {0.5 * v.contact_angle:g} deg")
     minimum = v.radial_load * math.tan(math.radians(v.contact_angle))
-    if v.axial_load <= minimum * (1.0 + APART):
+    if v.axial_load <= minimum * (1.0 + AXIAL_MARGIN):
         what = f"an axial load of {v.axial_load:g} N: tapered rollers push the rings apart"
         machine.refuse(
             "axial_load", what, f"more than {minimum:.5g} N, that of preload or counter bearing"
@@ -188,7 +188,7 @@ def _raceway(pitch: float, element: float, angle: float, sign: float) -> float:
 def _pitch(machine: Machine, element: float, count: int, elements: str) -> float:
     """Pitch diameter [m]; refuse elements that do not fit round it, or between shaft and housing.
 
-    The bore and the outside diameter are those of catalogues, and the rings lie between.
+    The bore and the outside diameter are those of catalogues; the rings lie between them.
     """
     v = machine.values
     pitch = v.pitch_diameter
@@ -224,12 +224,14 @@ def _speed(machine: Machine) -> float:
 
 
 def _ball_clearance(machine: Machine, centres: float) -> float:
-    """Diametral play [m], given or by the contact angle; `centres` as of `equilibrium`."""
+    """Diametral clearance [m], given or from the contact angle; `centres` as in `equilibrium`."""
     v = machine.values
-    steepest = 2.0 * centres * (1.0 - math.cos(math.radians(STEEPEST)))
+    steepest = 2.0 * centres * (1.0 - math.cos(math.radians(MAX_ANGLE)))
     if v.contact_angle == 0.0:
         if v.clearance > steepest:
-            what = f"a clearance of {v.clearance:.3g} m: the contact angle exceeds {STEEPEST:g} deg"
+            what = (
+                f"a clearance of {v.clearance:.3g} m: the contact angle exceeds {MAX_ANGLE:g} deg"
+            )
             machine.refuse(
                 "clearance", what, f"clearance of at most {steepest:.3g} m; 10 um is 1e-5"
             )
@@ -242,7 +244,7 @@ def _ball_clearance(machine: Machine, centres: float) -> float:
 
 
 def _check_preload(machine: Machine, pressure: float, limit: float, power: float) -> None:
-    """Refuse a negative clearance whose p_h alone exceeds a limit [Pa]; p_h^power goes with it."""
+    """Refuse a negative clearance, proportional to p_h^power, whose p_h exceeds a limit [Pa]."""
     if pressure > limit:
         minimum = machine.values.clearance * (limit / pressure) ** power
         what = (
@@ -256,10 +258,10 @@ def _check_preload(machine: Machine, pressure: float, limit: float, power: float
 def _facts(
     machine: Machine, result: Bearing, pitch: float, d: float, volume: float, angle: float
 ) -> None:
-    """Numbers of the whole bearing; `volume` is that of an element [m^3], `angle` [rad]."""
+    """Add quantities of the whole bearing; `volume` is that of an element [m^3], `angle` [rad]."""
     v, ring = machine.values, result.ring
-    share = d * math.cos(angle) / pitch
-    cage = 0.5 * (v.inner_speed * (1.0 - share) + v.outer_speed * (1.0 + share))
+    gamma = d * math.cos(angle) / pitch
+    cage = 0.5 * (v.inner_speed * (1.0 - gamma) + v.outer_speed * (1.0 + gamma))
     most = float(ring.loads.max())
     result.facts.update(
         pitch_diameter_m=pitch,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One contact of a machine element: its conditions by the machine, and its film by formulas."""
+"""One contact of a machine element: its operating conditions, and its film by formulas."""
 
 import math
 from collections.abc import Mapping
@@ -20,35 +20,35 @@ from pyehl.types import Settings
 
 LINE, ELLIPSE = "line", "ellipse"
 RIGID = "rigid-isoviscous"
-# R_x/R_y of an ellipse as wide as a line is near it: half widths agree within 1 %
-WIDE = 0.01
+# R_x/R_y of the wide ellipse that stands for a line: the half widths agree within 1 %
+WIDE_RATIO = 0.01
 CROSSED = "minimum film above the central one: two formulas, of which one fails here"
 OUTSIDE = " outside its range of "
-LONGEST = 30.0
-"""Largest ratio of the semi-axes of an ellipse that the solver takes."""
+MAX_ELLIPTICITY = 30.0
+"""Largest ratio of the semi-axes of an ellipse that the solver accepts."""
 
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """A contact, with its conditions by the machine.
+    """A contact of a machine element with its operating conditions.
 
     Attributes
     ----------
     place
         Its position, as text.
     load
-        [N].
+        Load [N].
     mean_velocity, slide_to_roll
         Of both surfaces [m/s], [-]; body 1 is the rolling element, or the pinion.
     radii
-        In the plane of the motion and across it, of body 1, then of body 2 [m]; negative: concave,
-        infinite: flat.
+        Radii in the plane of the motion and across it, of body 1, then of body 2 [m]; negative:
+        concave, infinite: flat.
     length
-        Of a line contact [m]; 0: an ellipse.
+        Length of a line contact [m]; 0: an ellipse.
     spin
-        Angular velocity of one body against the other about the normal [rad/s].
+        Angular velocity of one body relative to the other about the normal [rad/s].
     may_be_light
-        Whether a very low load is plausible: others of the machine carry the load.
+        Whether a very low load is plausible because other contacts carry the load.
     """
 
     place: str
@@ -72,17 +72,17 @@ class Contact:
 
     @property
     def radius_ratio(self) -> float:
-        """R_x/R_y [-]; of a line that of a wide ellipse in its place."""
+        """R_x/R_y [-]; for a line that of the equivalent wide ellipse."""
         across = 1.0 / self.radii[1] + 1.0 / self.radii[3]
-        return WIDE if self.length else self.radius * across
+        return WIDE_RATIO if self.length else self.radius * across
 
     def line(self, modulus: float) -> LineContact:
-        """Give the line contact, of a reduced modulus [Pa] and without an oil."""
+        """Return the line contact for a reduced modulus [Pa], with the default oil."""
         load = self.load / self.length
         return LineContact(load, self.mean_velocity, self.radius, modulus)
 
     def case_text(self, machine: Machine) -> str:
-        """Give the resolved case of the contact."""
+        """Return the resolved case of the contact."""
         if not self.length:
             return self._ellipse_text(machine, self.load, self.radii)
         contact = {
@@ -95,16 +95,16 @@ class Contact:
         return machine.case_text(line, self.place, bodies=False, may_be_light=light)
 
     def wide_text(self, machine: Machine) -> str:
-        """Give the case of a wide ellipse in place of a line, for the heat of a friction formula.
+        """Return the case of the equivalent wide ellipse of a line, for the frictional heating.
 
-        It has the p_h and, within 1 %, the half width of the line; its film is another one.
+        It has the p_h and, within 1 %, the half width of the line; its film differs.
         """
-        shape = ellipse(WIDE)
+        shape = ellipse(WIDE_RATIO)
         pressure, kappa = self.line(machine.reduced_modulus).hertz_pressure, shape.ellipticity
         semi_axis = math.pi * kappa * self.radius * pressure
-        semi_axis /= machine.reduced_modulus * shape.load_share
+        semi_axis /= machine.reduced_modulus * shape.load_factor
         load = 2.0 / 3.0 * math.pi * kappa * semi_axis**2 * pressure
-        radii = (self.radii[0], self.radius / WIDE, self.radii[2], math.inf)
+        radii = (self.radii[0], self.radius / WIDE_RATIO, self.radii[2], math.inf)
         return self._ellipse_text(machine, load, radii)
 
     def _motion(self) -> dict[str, float]:
@@ -123,7 +123,7 @@ class Contact:
 
 
 def _rounded(values: Mapping[str, float]) -> dict[str, float]:
-    """Round values, so that elements that mirror each other have the same case."""
+    """Round values, so that mirrored elements have the same case."""
     return {name: float(f"{value:.10g}") for name, value in values.items()}
 
 
@@ -136,19 +136,19 @@ class Film:
     text, settings
         The resolved case, as text and by groups.
     point
-        Its operating point; of a line that of the wide ellipse in its place.
+        Its operating point; for a line that of the equivalent wide ellipse.
     line
-        The line contact, of a line.
+        The line contact; None for an ellipse.
     lubricant
-        The oil.
+        Its lubricant.
     h_c, h_min
         Central and minimum film [m].
     regime
         As :func:`pyehl.theory.moes_film.regime` names it.
     outside
-        Numbers outside of the range of a formula that gives them, as text; '' if there are none.
+        Quantities outside the range of their formula, as text; '' if there are none.
     wide
-        The case of `point`, of a line.
+        For a line, the case of `point`.
     """
 
     contact: Contact
@@ -181,9 +181,9 @@ class Film:
 
     @property
     def is_solvable(self) -> bool:
-        """Whether the solver can solve it: the ellipse is not too long, the load not too low."""
+        """Whether the solver accepts it: the ellipse is not too long, the load not too low."""
         modulus = self.settings["contact"]["reduced_modulus"]
-        long = self.line is None and self.ellipticity > LONGEST
+        long = self.line is None and self.ellipticity > MAX_ELLIPTICITY
         return not (long or is_light(self.moes[0], self.hertz_pressure, modulus))
 
     @property
@@ -193,12 +193,12 @@ class Film:
 
 
 def film_of(contact: Contact, machine: Machine) -> Film:
-    """Give the film of a contact by formulas.
+    """Return the film of a contact by formulas.
 
-    Central: Nijenbanning-Venner-Moes, of lines Moes 1992; minimum: Hamrock-Dowson 1977, of lines
-    Dowson-Higginson; of bodies that hardly deform, as some elements at the edge of the load zone
-    are, the minimum is the central film of a formula for rigid bodies. InputError if there is no
-    such contact.
+    Central film: Nijenbanning-Venner-Moes, for lines Moes 1992; minimum film: Hamrock-Dowson 1977,
+    for lines Dowson-Higginson. In the rigid regime, as for some elements at the edge of the load
+    zone, the minimum is the central film of a formula for rigid bodies. InputError if the case of
+    the contact is not valid.
     """
     text = contact.case_text(machine)
     settings = values(text)
@@ -231,7 +231,7 @@ def film_of(contact: Contact, machine: Machine) -> Film:
 
 
 def _beyond(*formulas: FilmEstimate) -> str:
-    """Name the numbers with which formulas are outside of their ranges."""
+    """Name the quantities that are outside the ranges of the formulas."""
     result = {
         f.name: [text.partition(" =")[0] for text in f.outside] for f in formulas if f.outside
     }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Friction of a contact on its Hertz pressure and a uniform film, by the shear law of the oil."""
+"""Friction of a contact with Hertz pressure and a uniform film, by the shear law of the oil."""
 
 import math
 
@@ -12,15 +12,15 @@ from pyehl.theory.heat import Heat
 from pyehl.theory.shear import shear_stress
 from pyehl.types import Array
 
-# Nodes along the motion and across it, on which heat is computed; of integrals
+# Nodes of the heat along and across the motion, and of the integrals
 NODES, ROWS, GAUSS = 129, 9, 40
 
 
 def traction(film: Film) -> tuple[float, float]:
     """Coefficient of friction of sliding [-] and flash temperature [K] (Tian & Kennedy).
 
-    On p_h sqrt(1 - r^2) and a uniform film h_c, with the heat where the case includes it. NaN
-    without sliding along the motion, and mu for a Newtonian stress that is unphysical.
+    Pressure p_h sqrt(1 - r^2) and a uniform film h_c, with frictional heating where the case
+    includes it. NaN without sliding along the motion; mu is NaN for an unphysical Newtonian stress.
     """
     point, oil, h_c = film.point, film.lubricant, film.h_c
     if point.slide_to_roll == 0.0:
@@ -40,7 +40,7 @@ def traction(film: Film) -> tuple[float, float]:
 
 
 def _heat(film: Film, h_c: float) -> Heat:
-    """Give the effect of frictional heat on such a pressure and film."""
+    """Return the effect of frictional heating for that pressure and film."""
     rows = 2 if film.line else ROWS
     across = 0.0 if film.line else film.point.ellipse.ellipticity
     x = np.linspace(-1.0, 1.0, NODES)
@@ -53,12 +53,12 @@ def _heat(film: Film, h_c: float) -> Heat:
 
 
 def rolling_force(film: Film) -> float:
-    """Resistance of the pressure flow to rolling, on each surface [N].
+    """Return the rolling resistance of the pressure-driven flow on each surface [N].
 
     Lines: 4.318 (alpha eta0 u/R)^0.658 W^0.0126 R/alpha per length (Goksem & Hargreaves 1978, J.
     Lubr. Technol. 100, 346); ellipses: the elastohydrodynamic asymptote 7.5 kappa/M p_h a^3/R_x, M
-    of the round contact with the same equations (Biboulet & Houpert 2010, Proc. Inst. Mech. Eng. J
-    224, part 2). NaN for lines where alpha is 0.
+    of the circular contact with the same equations (Biboulet & Houpert 2010, Proc. Inst. Mech. Eng.
+    J 224, part 2). NaN for lines where alpha is 0.
     """
     if film.line is None:
         point, shape = film.point, film.point.ellipse
@@ -74,11 +74,11 @@ def rolling_force(film: Film) -> float:
 
 
 def groove_sliding(film: Film, h_c: float) -> float:
-    """Power of sliding in the groove of a ball that rolls freely, and spins [W].
+    """Sliding power in the groove of a ball that rolls freely and spins [W].
 
-    Heathcote's sliding: the common surface of ball and groove is curved across the motion, so that
-    both have the same velocity on two lines alone, and the tractions between them balance.
-    Isothermal, on the Hertz pressure and a film h_c [m] everywhere. NaN for a Newtonian oil, whose
+    Heathcote slip: the common surface of ball and groove is curved across the motion, so that both
+    have the same velocity only on two lines; the tractions on both sides of these balance.
+    Isothermal, with the Hertz pressure and a uniform film h_c [m]. NaN for a Newtonian oil, whose
     stress would be unphysical.
     """
     point, oil, contact = film.point, film.lubricant, film.contact
@@ -100,7 +100,7 @@ def groove_sliding(film: Film, h_c: float) -> float:
     fall = contact.mean_velocity / contact.radius * 0.5 * curvature * y**2
 
     def stress(level: float) -> tuple[Array, Array, Array]:
-        """Sliding along the motion and its size, and stress over the latter."""
+        """Sliding velocity along the motion, sliding speed, and the stress for that speed."""
         along = level - fall - contact.spin * y
         size = np.hypot(along, contact.spin * x)
         return along, size, shear_stress(viscosity * size / h_c, pressure, oil.shear)

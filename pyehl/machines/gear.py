@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Involute spur gears: from drawing, torque and speed to the contacts along their path.
+"""Contacts along the path of contact of involute spur gears, from geometry, torque and speed.
 
-Geometry of ISO 21771, external gears. Without tip relief; the pinion drives.
+Geometry of ISO 21771, external gears without tip relief; the pinion drives.
 """
 
 import math
@@ -11,17 +11,17 @@ from typing import Any
 import numpy as np
 
 from pyehl.case.machine import Machine
-from pyehl.machines.contact import LONGEST, Contact
+from pyehl.machines.contact import MAX_ELLIPTICITY, Contact
 from pyehl.theory.ellipse import ellipse
 from pyehl.types import Array
 
-# Backlash that counts as zero, and tip thickness of a pointed tooth, over the module
-NOTHING = 1e-3
+# Negative backlash that is tolerated, and tip thickness of a pointed tooth, over the module
+TOLERANCE = 1e-3
 TURN = 2.0 * math.pi / 60.0
-# R_x/R_y below which an ellipse is far longer than `LONGEST`
-SMALLEST_RATIO = 1e-3
-# Nearest station to an end of the path, over the base pitch
-WITHIN = 1e-6
+# R_x/R_y below which the ellipticity far exceeds `MAX_ELLIPTICITY`
+MIN_RADIUS_RATIO = 1e-3
+# Distance of the stations beside B and D from them, over the base pitch
+STATION_OFFSET = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class Mesh:
     Attributes
     ----------
     centre_distance, working_angle
-        Of the pair [m], [rad].
+        Centre distance and working pressure angle of the pair [m], [rad].
     base
         Base radii of pinion and wheel.
     tips
@@ -39,7 +39,7 @@ class Mesh:
     base_pitch
         p_b.
     ends
-        Path of contact, begin A and end E, from the pitch point along the line of action.
+        Begin A and end E of the path of contact, from the pitch point along the line of action.
     """
 
     centre_distance: float
@@ -61,12 +61,12 @@ class Mesh:
         return (self.ends[1] - self.ends[0]) / self.base_pitch
 
     def radii(self, place: float) -> tuple[float, float]:
-        """Radii of curvature of both flanks at a place on the path."""
+        """Radii of curvature of both flanks at a position on the path."""
         tangent = math.tan(self.working_angle)
         return self.base[0] * tangent + place, self.base[1] * tangent - place
 
     def load_share(self, place: float, sharing: str) -> float:
-        """Share of the load that the pair at a place on the path carries.
+        """Fraction of the load that the pair at a position on the path carries.
 
         'linear': from 1/3 to 2/3 while two pairs are in mesh and back (ISO/TR 13989-1, unmodified
         profiles, accuracy grade 7 or better); 'equal': one half.
@@ -89,9 +89,9 @@ class GearPair:
     Attributes
     ----------
     places
-        Of each contact its place from the pitch point [m], pinion angle [deg], share of the load.
+        For each contact the distance from the pitch point [m], pinion angle [deg] and load share.
     facts
-        Numbers of the pair by name.
+        Quantities of the pair by name.
     """
 
     mesh: Mesh
@@ -113,7 +113,7 @@ def _inverse_involute(value: float) -> float:
 
 
 def mesh_of(machine: Machine) -> Mesh:
-    """Give the geometry of a pair; InputError at the key that prevents the gears from meshing."""
+    """Return the geometry of a pair; InputError names the key that prevents meshing."""
     v = machine.values
     machine.wants("teeth_1", "teeth_2", "module", "face_width")
     teeth, shifts = (v.teeth_1, v.teeth_2), (v.profile_shift_1, v.profile_shift_2)
@@ -135,7 +135,7 @@ def mesh_of(machine: Machine) -> Mesh:
         machine.refuse("profile_shift_2", "the profile shifts leave no mesh", "larger ones")
     tight = standard * math.cos(alpha) / math.cos(_inverse_involute(value))
     distance = v.centre_distance or tight
-    if distance < tight - NOTHING * m:
+    if distance < tight - TOLERANCE * m:
         what = f"a centre distance of {distance:.6g} m is less than without backlash"
         machine.refuse("centre_distance", what, f"{tight:.6g} m at least, by the profile shifts")
     working = math.acos(standard * math.cos(alpha) / distance)
@@ -187,16 +187,16 @@ def _check_tip(
         )
     half = (0.5 * math.pi + 2.0 * shift * math.tan(alpha)) / teeth + _involute(alpha)
     thickness = 2.0 * tip * (half - _involute(math.acos(base / tip)))
-    if thickness < NOTHING * machine.values.module:
+    if thickness < TOLERANCE * machine.values.module:
         pointed = 2.0 * base / math.cos(_inverse_involute(half))
         what = f"the teeth of gear {i} are pointed at a tip diameter of {2.0 * tip:.5g} m"
         machine.refuse(key, what, f"less than {pointed:.5g} m, or a smaller profile shift")
 
 
 def stations(mesh: Mesh, count: int) -> Array:
-    """Places on the path [m]: about `count`, on each part of it equally spaced, with A, B, C, D, E.
+    """About `count` positions on the path [m], with A, B, C, D and E, evenly spaced between them.
 
-    B and D are there twice, with two pairs in mesh and with one.
+    B and D occur twice, once with two pairs in mesh and once with one.
     """
     first, last = mesh.single
     begin, end = mesh.ends
@@ -206,9 +206,9 @@ def stations(mesh: Mesh, count: int) -> Array:
         nodes = max(2, round(count * (high - low) / (end - begin)) + 1)
         part = np.linspace(low, high, nodes)
         if low == begin:
-            part[-1] -= WITHIN * mesh.base_pitch
+            part[-1] -= STATION_OFFSET * mesh.base_pitch
         elif high == end:
-            part[0] += WITHIN * mesh.base_pitch
+            part[0] += STATION_OFFSET * mesh.base_pitch
         elif places and low == 0.0:
             part = part[1:]
         places.extend(part.tolist())
@@ -216,10 +216,10 @@ def stations(mesh: Mesh, count: int) -> Array:
 
 
 def gear_pair(machine: Machine) -> GearPair:
-    """Give the contacts of a pair along its path of contact; InputError at an invalid key.
+    """Return the contacts of a pair along its path of contact; InputError names an invalid key.
 
     With crowning a contact is an ellipse; without, or where the ellipse is longer than the face
-    width, a line of the face width.
+    width, it is a line of the face width.
     """
     v = machine.values
     mesh = mesh_of(machine)
@@ -229,7 +229,7 @@ def gear_pair(machine: Machine) -> GearPair:
         machine.refuse("speed", "the gears do not turn, and there is no film", "speed [1/min]")
     ratio = v.teeth_1 / v.teeth_2
     force = v.torque / mesh.base[0]
-    # a height C_b at the ends of the face width is a radius b^2/(8 C_b)
+    # a crowning height C_b at the ends of the face width b gives the radius b^2/(8 C_b)
     across = [v.face_width**2 / (8.0 * c) if c else math.inf for c in (v.crowning_1, v.crowning_2)]
     pair = GearPair(mesh, v.torque * omega, omega)
     for number, place in enumerate(stations(mesh, v.stations)):
@@ -262,8 +262,10 @@ def gear_pair(machine: Machine) -> GearPair:
 def _is_ellipse(contact: Contact, modulus: float, width: float) -> bool:
     """Whether the ellipse of crowned flanks ends within the face width, and is not too long."""
     ratio = contact.radius_ratio
-    if ratio < SMALLEST_RATIO:
+    if ratio < MIN_RADIUS_RATIO:
         return False
     shape = ellipse(ratio)
-    cube = 1.5 * contact.load * contact.radius / (modulus * shape.load_share)
-    return shape.ellipticity <= LONGEST and 2.0 * shape.ellipticity * cube ** (1 / 3) <= width
+    cube = 1.5 * contact.load * contact.radius / (modulus * shape.load_factor)
+    return (
+        shape.ellipticity <= MAX_ELLIPTICITY and 2.0 * shape.ellipticity * cube ** (1 / 3) <= width
+    )

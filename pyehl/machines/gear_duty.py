@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The duty of a pair of teeth: the conditions of its contact along the path of contact."""
+"""The duty of a pair of teeth: operating conditions of its contact along the path of contact."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -14,11 +14,11 @@ from pyehl.types import Array
 
 CSV, CASE = "duty.csv", "duty.nml"
 FILES = (CSV, CASE)
-"""The table and a case of smooth flanks with it, for ``pyehl run``."""
+"""The table, and a case of smooth flanks with that duty, for ``pyehl run``."""
 
 
 def has_duty(pair: GearPair) -> bool:
-    """Whether all contacts have the same shape, so that one case has them all."""
+    """Whether all contacts have the same shape, so that one case can describe them."""
     return len({one.shape for one in pair.contacts}) == 1
 
 
@@ -41,7 +41,7 @@ def table(pair: GearPair) -> dict[str, Array]:
 
 
 def write_duty(folder: Path, pair: GearPair, films: Sequence[Film]) -> None:
-    """Write the table, and the case of the largest load with it."""
+    """Write the table, and the case of the most loaded contact with that duty."""
     columns = table(pair)
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)
     write_csv(folder / CSV, list(columns), rows)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bearings and gears in one call: by formulas at once, or solved or predicted as one study."""
+"""Bearings and gears in one call: film by formulas, or solved or predicted as one study."""
 
 from __future__ import annotations
 
@@ -54,9 +54,9 @@ class Prepared:
     films
         Its contacts with their films by formulas.
     tasks
-        Those that are to be solved or predicted, each once.
+        The different contacts to be solved or predicted, each once.
     number
-        Of the task of each contact; None for one by formulas.
+        Number of the task of each contact; None: film by formulas.
     """
 
     def __init__(self, path: AnyCase, options: Any, kinds: tuple[str, ...], run: str) -> None:  # noqa: ANN401
@@ -93,7 +93,7 @@ class Prepared:
             self.number.append(numbers[one.text])
 
     def identity(self) -> dict[str, Any]:
-        """Give the identity of this study, as values of JSON."""
+        """Return what identifies this study, as JSON values."""
         texts = [task.text for task in self.tasks.tasks]
         files = {name: None for text in texts for name in files_of(namelist.values(text))}
         return {
@@ -105,7 +105,7 @@ class Prepared:
         }
 
     def result(self, rows: Mapping[int, Row]) -> MachineResult:
-        """Give the result, from the tasks finished so far."""
+        """Return the result from the tasks finished so far."""
         missing: Row = {"status": "not run", "message": "the study was interrupted"}
         sigma = sigma_of(self.films[0])
         table = table_of(
@@ -130,7 +130,7 @@ def perform(
 ) -> tuple[MachineResult, Outcome]:
     """Run the missing contacts of a machine element, and write its folder.
 
-    InputError if it holds another one or something else; FileError if it cannot be written.
+    InputError if the folder has another study or other files; FileError if it cannot be written.
     """
     outcome = Outcome({})
     files: tuple[str, ...] = FILES
@@ -232,7 +232,7 @@ def bearing(
     Raises
     ------
     InputError
-        If the bearing cannot be built or loaded so, or `output` holds something else.
+        If the dimensions or loads of the bearing are not possible, or `output` has other files.
     KeyboardInterrupt
         If it was interrupted; `output` has all that was finished.
 
@@ -272,13 +272,13 @@ def gear(
     Returns
     -------
     MachineResult
-        With ``table``, a row for each station on the path of contact, ``summary`` with mean
-        coefficient of friction and loss, ``data`` and ``plot()``.
+        With ``table``, a row for each station on the path of contact, ``summary`` with the mean
+        coefficient of friction and the losses, ``data`` and ``plot()``.
 
     Raises
     ------
     InputError
-        If the gears cannot be made or do not mesh, or `output` holds something else.
+        If the gears are not possible or do not mesh, or `output` has other files.
     KeyboardInterrupt
         If it was interrupted; `output` has all that was finished.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The contacts of a machine element as a table, and their sums."""
+"""The contacts of a machine element as a table, and its total losses."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -23,15 +23,15 @@ from pyehl.types import Row
 FORMULAS = "formulas"
 """Status of a contact whose film is by formulas."""
 DONE = FINDINGS | {FORMULAS}
-"""Statuses of contacts with a result, of which film breakdown is one."""
+"""Statuses of contacts with a result; film breakdown is one of them."""
 COLUMNS = {
     "element": ("-", "number of the rolling element; the first one lies under the radial load"),
     "ring": ("", "inner or outer"),
-    "azimuth_deg": ("deg", "of the element from the radial load"),
+    "azimuth_deg": ("deg", "angle of the element from the radial load"),
     "contact_angle_deg": ("deg", "contact angle under load"),
     "s_m": (
         "m",
-        "place on the path of contact from the pitch point, towards the tip of the pinion",
+        "position on the path of contact from the pitch point, towards the tip of the pinion",
     ),
     "pinion_angle_deg": ("deg", "rotation of the pinion from the pitch point"),
     "load_share": ("-", "share of the normal force on this pair of teeth"),
@@ -44,14 +44,14 @@ COLUMNS = {
     "hertz_pressure_Pa": ("Pa", "p_h"),
     "half_width_m": ("m", "half width of the contact along the motion"),
     "ellipticity": ("-", "semi-axis across the motion over that along it; infinite for a line"),
-    "moes_m": ("-", "Moes load M, of a line that of a line"),
+    "moes_m": ("-", "Moes load M; lines have their own M and L"),
     "moes_l": ("-", "Moes material number L"),
     "regime": ("", "nearest asymptote: rigid or elastic, isoviscous or piezoviscous"),
     "h_c_m": ("m", "central film"),
     "h_c_error_m": ("m", "estimate of its error"),
     "h_min_m": ("m", "minimum film"),
     "h_min_error_m": ("m", "estimate of its error"),
-    "lambda_ratio": ("-", "h_min over the rms height of both surfaces together"),
+    "lambda_ratio": ("-", "h_min over the composite rms height of both surfaces"),
     "mu": ("-", "coefficient of friction of sliding along the motion"),
     "mu_ratio": ("-", "friction over that of the smooth contact"),
     "h_min_rough_m": ("m", "minimum film of the rough contact"),
@@ -59,21 +59,21 @@ COLUMNS = {
     "sliding_power_W": ("W", "power of sliding"),
     "rolling_power_W": ("W", "power of the resistance to rolling"),
     "status": ("", "formulas, converged, predicted, or why there is no result"),
-    "note": ("", "what else to know"),
+    "note": ("", "caveat or reason"),
 }
 """Columns of the table: unit and meaning."""
 FOUND = (
     *("h_c_m", "h_c_error_m", "h_min_m", "h_min_error_m", "mu", "mu_ratio", "h_min_rough_m"),
     "flash_temperature_K",
 )
-"""Columns of a solution or a prediction with the same names."""
+"""Columns that a solution or a prediction provides under the same names."""
 OPTIONAL = ("length_m", "lambda_ratio", *FOUND[4:])
-"""Columns that are left out where no contact has a value."""
+"""Columns that are omitted where no contact has a value."""
 LEFT_OUT = {
     "bearing": "cage, seals, churning, flanges, hysteresis of steel, centrifugal loads, tilting",
     "gear": "churning, bearings, seals, tip relief, dynamic loads, deflection of the teeth",
 }
-"""Losses that the sums leave out."""
+"""Losses and effects that the totals do not include."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -85,9 +85,9 @@ class MachineResult:
     kind
         'bearing' or 'gear'.
     table
-        A row for each contact, `COLUMNS` as far as they have a value.
+        A row for each contact; the `COLUMNS` that have values.
     summary
-        Numbers of the whole, with units in their names; ``left_out``: losses that are left out.
+        Totals and extremes, with units in their names; ``left_out``: losses not included.
     """
 
     kind: str
@@ -115,16 +115,16 @@ class MachineResult:
         return figure(self.kind, self.table, self.summary)
 
     def __repr__(self) -> str:
-        """Give table and sums as text."""
+        """Return table and totals as text."""
         return report(self.kind, self.table, self.summary)
 
     def _repr_html_(self) -> str:
-        """Draw the sums, for notebooks."""
+        """Return a table of the totals, for notebooks."""
         return display.table(self.kind, self.summary)
 
 
 def sigma_of(film: Film) -> float:
-    """Rms height of both surfaces of a contact together [m]; 0 for smooth ones."""
+    """Composite rms height of the surfaces of a contact [m]; 0 for smooth ones."""
     tiles = [
         surfaces.from_settings(
             {**film.settings, "surface": film.settings[group]}, film.line or film.point, film.h_c
@@ -135,7 +135,7 @@ def sigma_of(film: Film) -> float:
 
 
 def row_of(film: Film, sigma: float, done: Row | None, place: Mapping[str, Any]) -> dict[str, Any]:
-    """Give the row of a contact; `done` is its row in a study, None: by formulas."""
+    """Return the row of a contact; `done` is its row in a study, None: by formulas."""
     contact = film.contact
     row: dict[str, Any] = {
         **place,
@@ -186,7 +186,7 @@ def _number(value: Any) -> float:  # noqa: ANN401 (a number or None)
 
 
 def table_of(rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
-    """Give rows as a table, columns in the order of `COLUMNS`."""
+    """Return rows as a table, columns in the order of `COLUMNS`."""
     names = [name for name in COLUMNS if any(name in row for row in rows)]
     table = pd.DataFrame([{name: row.get(name) for name in names} for row in rows])
     empty = [name for name in OPTIONAL if name in table and table[name].isna().all()]
@@ -196,7 +196,7 @@ def table_of(rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
 def summary_of(
     machine: Machine, made: Bearing | GearPair, table: pd.DataFrame, sigma: float
 ) -> dict[str, Any]:
-    """Give the sums of a machine element."""
+    """Return the totals of a machine element."""
     kind = "gear" if isinstance(made, GearPair) else "bearing"
     result: dict[str, Any] = {"kind": kind, "machine": machine.kind, "contacts": len(table)}
     result |= made.facts | {"rms_height_m": sigma}
@@ -226,10 +226,10 @@ def summary_of(
 
 
 def _of_pair(pair: GearPair, table: pd.DataFrame) -> dict[str, float]:
-    """Give loss and mean friction of a pair: means over the time in which a base pitch passes.
+    """Return loss and mean friction of a pair, averaged over the passage of one base pitch.
 
-    A pair of teeth is in mesh while it goes through the path; its loss in that time comes once each
-    base pitch (Ohlendorf 1958, as ISO/TR 14179-2 has it).
+    The loss of one pair of teeth along the whole path occurs once per base pitch (Ohlendorf 1958,
+    as in ISO/TR 14179-2).
     """
     places, pitch = table["s_m"].to_numpy(), pair.mesh.base_pitch
 

@@ -9,7 +9,7 @@ import pandas as pd
 
 from pyehl.machines.contact import OUTSIDE
 
-# Columns that are printed: label, factor, digits; of words 0 for the factor
+# Columns that are printed: label, factor, digits; a factor of 0 for text
 SHOWN: dict[str, tuple[str, float, int]] = {
     "element": ("element", 0.0, 0),
     "ring": ("ring", 0.0, 0),
@@ -31,7 +31,7 @@ SHOWN: dict[str, tuple[str, float, int]] = {
     "flash_temperature_K": ("flash [K]", 1.0, 1),
     "status": ("status", 0.0, 0),
 }
-# Sums that are printed: label, factor, format, unit
+# Totals that are printed: label, factor, format, unit
 SUMS: dict[str, tuple[str, float, str, str]] = {
     "load_max_N": ("most loaded element", 1.0, ".1f", "N"),
     "load_max_Z_over_F": ("  times Z/F", 1.0, ".3f", ""),
@@ -54,22 +54,22 @@ SUMS: dict[str, tuple[str, float, str, str]] = {
     "rolling_power_W": ("power of rolling", 1.0, ".1f", "W"),
     "efficiency": ("efficiency of the mesh", 100.0, ".3f", "%"),
 }
-# Of the friction, which a Newtonian oil does not have
+# Entries that need a friction coefficient, which a Newtonian oil does not give
 FRICTION = ("sliding_torque_N_m", "torque_N_m", "mu_mean", "sliding_power_W", "efficiency")
 NOTES = 4
 # Maximum pressure at the static rating of ball bearings (ISO 76) [Pa]
-YIELDING = 4.2e9
+STATIC_PRESSURE = 4.2e9
 
 
 def report(kind: str, table: pd.DataFrame, summary: Mapping[str, Any]) -> str:
-    """Return table and sums of a machine element as text."""
+    """Return table and totals of a machine element as text."""
     lines = [pd.DataFrame(cells(kind, table)).to_string(index=False), ""]
     lines += [f"{label:<30}{text}".rstrip() for label, text in sums(table, summary).items()]
     return "\n".join([*lines, *notes_of(table, summary)])
 
 
 def cells(kind: str, table: pd.DataFrame) -> dict[str, list[str]]:
-    """Give the columns that are printed as text, by their labels."""
+    """Return the printed columns as text, by their labels."""
     return {
         label: [_cell(value, factor, digits) for value in table[name]]
         for name, (label, factor, digits) in SHOWN.items()
@@ -78,11 +78,11 @@ def cells(kind: str, table: pd.DataFrame) -> dict[str, list[str]]:
 
 
 def notes_of(table: pd.DataFrame, summary: Mapping[str, Any]) -> list[str]:
-    """Give the notes, with omitted losses last."""
+    """Return the notes, with the omitted losses last."""
     notes = _together(str(note) for note in table["note"] if isinstance(note, str) and note)
     result = [*notes[:NOTES], *([f"and {len(notes) - NOTES} more"] if len(notes) > NOTES else [])]
     result = [f"note       {note}" for note in result]
-    if summary["hertz_pressure_max_Pa"] > YIELDING:
+    if summary["hertz_pressure_max_Pa"] > STATIC_PRESSURE:
         result.append("steel      yields: the static limit of bearings is 4.2 GPa (ISO 76)")
     if summary.get("lambda_ratio_min", math.inf) < 1.0 and "h_min_rough_m" not in table:
         result.append(
@@ -92,7 +92,7 @@ def notes_of(table: pd.DataFrame, summary: Mapping[str, Any]) -> list[str]:
 
 
 def sums(table: pd.DataFrame, summary: Mapping[str, Any]) -> dict[str, str]:
-    """Give the sums of a machine element as text, by their labels."""
+    """Return the totals of a machine element as text, by their labels."""
     result = {}
     for name, (label, factor, form, unit) in SUMS.items():
         value = summary.get(name)
@@ -108,7 +108,7 @@ def sums(table: pd.DataFrame, summary: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _together(notes: Iterable[str]) -> list[str]:
-    """List once for each formula the ranges that are exceeded."""
+    """Merge the notes: each formula once, with all the ranges that are exceeded."""
     result: dict[str, dict[str, None]] = {}
     for note in notes:
         for part in note.split("; "):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The result folder of a measured response, and the shipped response beside it."""
+"""Result folder of a measured response, with the response of the prediction for comparison."""
 
 import os
 import tempfile
@@ -31,10 +31,10 @@ from pyehl.types import Array, Complex
 PICTURE = "response.png"
 FILES = ("response.csv", "response.nc", "case.nml", PICTURE, "summary.json")
 DIRECTIONS = (0.0, 45.0, 80.0)
-"""Of the lines of the shipped response: crests to those across the motion [deg]."""
+"""Directions in which the shipped response is drawn [deg]; 0: crests across the motion."""
 PLACES = ("upstream", "centre", "downstream")
-"""Columns of the table at the STATIONS, on Y = 0."""
-# Variables over the waves, the second part also over X: meaning and unit
+"""Names of the STATIONS on Y = 0 in the columns of the table."""
+# Variables over the waves, some of them also over X: meaning and unit
 VARIABLES = {
     "kx": ("wavenumber along the motion", "1/a"),
     "ky": ("wavenumber across the motion", "1/a"),
@@ -42,7 +42,7 @@ VARIABLES = {
     "nabla_2": ("wavelength over a times sqrt(M/L) of the circle with the same inlet", "1"),
     "direction": ("angle of the crests to those across the motion", "degree"),
     "points": ("nodes per side of the grid", "1"),
-    "fit_residual": ("rms left by the fit in time over the amplitude, at X = 0", "1"),
+    "fit_residual": ("rms residual of the fit in time over the amplitude, at X = 0", "1"),
     "amplitude": ("|T|, film wave over roughness", "1"),
     "lag": ("phase of T", "degree"),
     "pressure": ("|pressure wave| over roughness", "p_h R/a^2"),
@@ -59,7 +59,7 @@ def destination(
     inputs: Iterable[str | os.PathLike[str]] = (),
     force: bool = False,
 ) -> Destination:
-    """Give the place of a measured response."""
+    """Return the destination of a measured response."""
     names = (*FILES, *(f"tier_{tier.name}.npz" for tier in TIERS))
     return Destination(folder, "response", names, tuple(inputs), force=force)
 
@@ -82,8 +82,8 @@ def response(
     *options
         Values that replace those of the case, as of `Case`.
     output
-        Result folder, as ``pyehl response -o`` writes it; runs that are there already are not made
-        again. None: nothing is kept on disk.
+        Result folder, as ``pyehl response -o`` writes it; runs that it already holds are not
+        repeated. None: nothing is kept on disk.
     force
         Other files may be in the folder; they stay.
     quick
@@ -91,13 +91,13 @@ def response(
     second
         At the velocity of the second surface of the case, not of the first.
     progress
-        Called with the name of a run, its steps done and its steps in all.
+        Called with the name of a run, its steps done and its total of steps.
 
     Returns
     -------
     xarray.Dataset
-        All waves, the longest first, each variable with its units; the numbers of the summary as
-        variables without a dimension, its words and truth values as attributes.
+        All waves, the longest first, each variable with its units; numbers of the summary as scalar
+        variables, its texts and booleans as attributes.
 
     Raises
     ------
@@ -173,7 +173,7 @@ def _write(case: Case, result: Mapping[str, Mapping[str, Any]], place: Destinati
 def _summary(
     result: Mapping[str, Mapping[str, Any]], difference: Array, values: xr.Dataset
 ) -> dict[str, Any]:
-    """Give the content of ``summary.json``; `values` has the conditions."""
+    """Return the content of ``summary.json``; `values` has the conditions."""
     tiers = [
         {
             "name": name,
@@ -254,18 +254,17 @@ def dataset(
     moes: tuple[float, float],
     velocity_ratio: float,
 ) -> xr.Dataset:
-    """Give all waves of a measurement, the longest first.
+    """Return all waves of a measurement, the longest first.
 
     `tiers` are as :func:`pyehl.measured_response.measurement.measure` returns them; `zone` is the
-    smooth contact of the shipped response, `moes` M and L of the circular contact
-    with the same inlet. Over wave (m,), and over wave and X
-    (m, 3) at the STATIONS; each variable has units.
+    smooth contact of the shipped response, `moes` M and L of the circular contact with the same
+    inlet. Variables are over wave (m,), or over wave and X (m, 3) at the STATIONS, with units.
     """
     parts = [_tier(tier, zone, moes, velocity_ratio) for tier in tiers.values()]
     joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     order = np.argsort(-joined["wavelength"], kind="stable")
     names = np.repeat(list(tiers), [tier["along"].size for tier in tiers.values()])
-    variables = {"tier": xr.Variable(("wave",), names[order], {"long_name": "run it is from"})}
+    variables = {"tier": xr.Variable(("wave",), names[order], {"long_name": "run of the wave"})}
     for name, (text, unit) in VARIABLES.items():
         values = joined[name][order]
         dims = ("wave", "X")[: values.ndim]
@@ -282,7 +281,7 @@ def dataset(
 
 
 def write_table(data: xr.Dataset, path: Path) -> None:
-    """Write a Dataset of waves as CSV, one line a wave, a column for each X."""
+    """Write a Dataset of waves as CSV, one row per wave, a column for each X."""
     table = data[[name for name in data if data[name].dims == ("wave",)]].to_dataframe()
     for name in VARIABLES:
         if "X" in data[name].dims:

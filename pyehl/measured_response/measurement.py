@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The response T(q; X) of a contact to waves of roughness, measured with the solver.
+"""Response T(q; X) of a contact to waves of roughness, measured with the solver.
 
-Waves of 4 a down to a/32, each on a grid with at least eight nodes a wavelength, in tiers: a
-coarse grid and a long tile for long waves, finer grids and shorter tiles for short ones. A tier is
-one transient run (:mod:`pyehl.measured_response.superposition`) and one file of the result folder;
-a tier whose file is there is not run again.
+The waves are from 4 a down to a/32 long, on grids with at least eight nodes per wavelength, in
+tiers: a coarse grid and a long tile for long waves, finer grids and shorter tiles for short ones. A
+tier is one transient run (:mod:`pyehl.measured_response.superposition`) and one file of the result
+folder; a tier whose file exists is not run again.
 """
 
 import json
@@ -28,21 +28,21 @@ from pyehl.studies.pool import processors
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings
 
-# Angles of the crests to those across the motion, one wave after the other [deg]
+# Angles of the crests to those across the motion, cyclically for successive waves [deg]
 DIRECTIONS = (0, 45, 80, 26, 0, 63, 15, 75, 0, 56, 35, 70, 0, 45, 62, 20)
 NODES = 8
-"""Minimum number of nodes a wavelength."""
+"""Minimum number of nodes per wavelength."""
 Progress = Callable[[str, int, int], object]
 
 
 @dataclass(frozen=True, slots=True)
 class Tier:
-    """One run."""
+    """One transient run."""
 
     name: str  # of the tier and of its file
     tile: float  # side of the tile [a]
     points: int  # nodes per side of the domain, 4 a by 4 a
-    # Wavelengths along the motion, and shortest of all [a]
+    # Longest wavelength along the motion, and shortest wavelength in any direction [a]
     longest: float
     shortest: float
 
@@ -56,11 +56,11 @@ TIERS = (
     Tier("middle", 1.0, 513, 0.5, 0.0625),
     Tier("short", 0.5, 1025, 0.125, 0.03125),
 )
-"""The tiers of the command; all but the last are those of a quick measurement."""
+"""The tiers of the command; a quick measurement omits the last."""
 
 
 def tier_waves(tier: Tier) -> WaveSet:
-    """Waves of a tier: all wavelengths it resolves, up to 24, in scattered directions.
+    """Return the waves of a tier: up to 24 wavelengths that it resolves, in various directions.
 
     ValueError if the grid has fewer than NODES nodes for the shortest wave.
     """
@@ -71,14 +71,14 @@ def tier_waves(tier: Tier) -> WaveSet:
     along = np.unique(np.round(np.geomspace(first, last, 24)).astype(np.int64))
     angles = np.resize(np.array(DIRECTIONS, dtype=float), along.size)
     across = np.round(along * np.tan(np.radians(angles))).astype(np.int64)
-    # no wave is shorter than the shortest
+    # no oblique wave is shorter than `shortest`
     limit = np.floor(np.sqrt(last**2 - along**2)).astype(np.int64)
     phase = np.random.default_rng(5).uniform(0.0, 2.0 * np.pi, along.size)
     return WaveSet(tier.tile, along, np.minimum(across, limit), phase)
 
 
 def _identity(settings: Settings, velocity_ratio: float, tier: Tier) -> str:
-    """Describe the inputs of a tier, as text."""
+    """Return the inputs of a tier as text."""
     o = OperatingPoint.from_settings(settings)
     shape = [] if o.radius_ratio == 1.0 else [o.radius_ratio]
     values = {
@@ -96,14 +96,14 @@ def _file(folder: Path, tier: Tier) -> Path:
 
 
 def with_tiers(place: Destination) -> Destination:
-    """Give a place with the tiers in it, which stay."""
+    """Return the destination with its existing tiers marked to be kept."""
     folder = Path(place.folder)
     there = tuple(path.name for tier in TIERS if (path := _file(folder, tier)).exists())
     return replace(place, kept=there)
 
 
 def _check_folder(place: Destination, settings: Settings, velocity_ratio: float) -> list[Tier]:
-    """Tiers that are there already; refuses a folder with anything else in it."""
+    """Return the tiers that exist already; refuse a folder with any other file."""
     with_tiers(place).check()
     done = []
     for tier in TIERS:
@@ -132,15 +132,15 @@ def measure(
 ) -> dict[str, dict[str, Any]]:
     """Measure the response at the operating point and velocity ratio of a case.
 
-    Its groups contact and lubricant and `surface.velocity_ratio` are used. Tiers that are in the
-    folder are not run again; one after the other has all processors. `progress` is called with the
-    name of a tier, its steps done and its steps in all.
+    Its groups contact and lubricant and `surface.velocity_ratio` are used. Tiers whose files exist
+    are not run again; tiers run one after the other, each on all processors. `progress` is called
+    with the name of a tier, its steps done and its total of steps.
 
     Returns by the name of the tier the arrays of
     :class:`pyehl.measured_response.superposition.Superposition`, with tile [a], along, across,
-    phase [rad] and seconds. InputError if the velocity ratio is not positive, or the folder holds
-    something else; FileError if it cannot be made; EhlError if a tier fails: those that have
-    ended stay.
+    phase [rad] and seconds. InputError if the velocity ratio is not positive, or the folder has
+    other files; FileError if it cannot be created; EhlError if a tier fails: the files of finished
+    tiers remain.
     """
     settings = case.resolve()
     why = turned(settings)
@@ -181,7 +181,7 @@ def _run_tier(
     path: Path,
     progress: Callable[[int, int], object],
 ) -> None:
-    """Run a tier and write its file, whole or not at all."""
+    """Run a tier and write its file, completely or not at all."""
     began = time.perf_counter()
     waves = tier_waves(tier)
     try:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The response of a contact to many small waves of roughness, from one transient run.
+"""Response of a contact to many small waves of roughness, from one transient run.
 
-Waves of small amplitude do not interact, so that one surface can hold many of them. Each has
-its own number of wavelengths n along the tile, hence its own frequency U k at a fixed place; when
-the front and the free wave have passed, film and pressure on the line Y = 0 are fitted by the
-cosines and sines of all frequencies over one period of the tile. The waves are even in Y,
-cos(k_Y Y), so that half the domain is solved.
+Waves of small amplitude do not interact, so that one surface can hold many of them. Each has its
+own number of wavelengths along the tile, hence its own frequency U k at a fixed position. When the
+front and the free waves have passed, film and pressure on the line Y = 0 are fitted by the cosines
+and sines of all frequencies over one period of the tile. The waves are even in Y, cos(k_Y Y), so
+that half the domain is solved.
 
 Film and roughness: H = H_0 - sum A Re T exp(i(k(X - U t) + phase)); pressure: P = P_0 + sum A Re Pi
 exp(...). Lengths along the surface are scaled by the Hertz radius a, films by a^2/R, pressures by
@@ -27,13 +27,13 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Complex, Settings
 
 SLOPE = 1.2e-3
-"""Amplitude of a wave times its wavenumber [a/R]: small enough for the response to be linear."""
+"""Amplitude of a wave times its wavenumber [a/R]: small enough for a linear response."""
 REACH = 1.0
-"""The response is measured for |X| up to here [a]."""
+"""Largest |X| at which the response is measured [a]."""
 ACCURACY = 0.02
 # Pixels per shortest wave; the solver interpolates a map by its Fourier series
 PIXELS = 4
-# Distance [a] that the slowest wave moves before the start of the run has no more effect
+# Distance [a] that the slowest wave moves until the start of the run has no effect
 FILLING = 2.3
 FRONT = -2.5
 
@@ -43,8 +43,7 @@ class WaveSet:
     """Waves on a square tile."""
 
     tile: float  # its side [a]
-    # Wavelengths per tile along and across the motion, (m,); those along are all different and not
-    # 0
+    # Wavelengths per tile along and across the motion, (m,); those along are distinct and positive
     along: NDArray[np.int64]
     across: NDArray[np.int64]
     phase: Array  # (m,) [rad]
@@ -76,12 +75,12 @@ class WaveSet:
 class Superposition:
     """Response of a contact to the waves of a tile, on Y = 0."""
 
-    x: Array  # places within REACH (n,) [a]
+    x: Array  # nodes within REACH (n,) [a]
     # Means over a period, H [a^2/R] and P [p_h], (n,)
     film: Array
     pressure: Array
     response: Complex  # T, (m, n)
-    stiffness: Complex  # pi: pressure [p_h] per roughness [a^2/R], (m, n)
+    stiffness: Complex  # Pi: pressure [p_h] per roughness [a^2/R], (m, n)
     # rms residual of the film in the fit, over the amplitude of each wave, (m, n)
     residual: Array
     spacing: float  # grid spacing [a]
@@ -89,10 +88,10 @@ class Superposition:
 
 
 def linear_surface(waves: WaveSet, slope: float = SLOPE) -> tuple[Array, Array]:
-    """Heights [a^2/R] of a tile, even in Y, and the amplitudes (m,) of its waves."""
+    """Return heights [a^2/R] of a tile, even in Y, and the amplitudes (m,) of its waves."""
     pixels = PIXELS * int(max(waves.along.max(), waves.across.max(), 2))
     x = np.arange(pixels) / pixels * waves.tile
-    # cos of the distance from the nearest edge: even to the last bit
+    # distance from the nearest edge, which makes the cosines even to the last bit
     y = np.minimum(x, waves.tile - x)
     amplitude = slope / waves.q
     along = amplitude * np.cos(np.outer(x, waves.kx) + waves.phase)
@@ -102,7 +101,7 @@ def linear_surface(waves: WaveSet, slope: float = SLOPE) -> tuple[Array, Array]:
 def step_counts(
     points: int, tile: float, velocity_ratio: float, filling: float = FILLING
 ) -> tuple[int, int]:
-    """Count the steps of a period of a tile [a], and of a run without its smooth contact."""
+    """Count the steps of one period of a tile [a], and of a run after its smooth solution."""
     per_radius = (points - 1) / 4.0
     period = math.ceil(tile / velocity_ratio * per_radius)
     return period, math.ceil(filling / min(1.0, velocity_ratio) * per_radius) + period
@@ -116,11 +115,11 @@ def transient_case(
     velocity_ratio: float,
     solver: Mapping[str, Any],
 ) -> Case:
-    """Return the case of a run with a tile of a side [a] at the operating point of a case."""
+    """Return the case of a run with a tile [a] at the operating point of resolved settings."""
     o = OperatingPoint.from_settings(settings)
     round_one = o.radius_ratio == 1.0
     radii = {"radius_x": o.radius, "radius_y": o.radius / o.radius_ratio}
-    # as far to the sides of an ellipse as of a circle, with rows in halves of the radius
+    # the margin beside an ellipse is that beside a circle, rounded up to a quarter of the radius
     side = math.ceil(4.0 * (1.0 + o.ellipse.ellipticity)) / 4.0
     rows = {} if round_one else {"points_y": round(0.5 * side * (points - 1)) + 1}
     return Case(
@@ -138,7 +137,7 @@ def transient_case(
             "velocity_ratio": velocity_ratio,
             "x_start": FRONT,
         },
-        # the tiers count their nodes on 4 a by 4 a, whatever M and L
+        # the nodes of a tier refer to a domain of 4 a by 4 a for all M and L
         grid={"points": points, "x_inlet": -2.5, "x_outlet": 1.5, "y_extent": side, **rows},
         solver={"accuracy": ACCURACY, **solver},
         time={"steps": 100000, "estimate_error": False},
@@ -158,11 +157,11 @@ def superpose(
 ) -> Superposition:
     """Run a tile of waves through the contact of a resolved case.
 
-    The domain is 4 a along the motion, with so many nodes, and ends at a distance a from the sides
-    of the contact, on square cells; `velocity_ratio` is positive; `solver` are keys of that group,
-    `slope` is amplitude times wavenumber [a/R], `filling` the distance of the slowest wave before
-    the period that is fitted begins [a]; `progress` is called with the steps done and in all.
-    EhlError if the run ends too early.
+    The domain has `points` nodes over 4 a along the motion, square cells, and ends at a distance a
+    from the sides of the contact. `velocity_ratio` is positive; `solver` are keys of that group;
+    `slope` is amplitude times wavenumber [a/R]; `filling` is the distance that the slowest wave
+    moves before the fitted period begins [a]; `progress` is called with the steps done and their
+    total. EhlError if the run ends too early.
     """
     case = transient_case(
         settings, points=points, tile=waves.tile, velocity_ratio=velocity_ratio, solver=solver or {}
@@ -204,7 +203,7 @@ def _fit(
     record: tuple[Array, Array, Array, Array],
     grid: tuple[float, float],
 ) -> Superposition:
-    """Least squares of film and pressure (times, n) with all frequencies at every X."""
+    """Fit film and pressure (times, n) by all frequencies at every X, by least squares."""
     x, times, films, pressures = record
     angle = np.outer(times, waves.kx * velocity_ratio)
     basis = np.hstack([np.ones((times.size, 1)), np.cos(angle), np.sin(angle)])
@@ -216,13 +215,13 @@ def _fit(
     pressure_wave = pressure[1 : m + 1] + 1j * pressure[m + 1 :]
     phase = np.outer(waves.kx, x - FRONT) + waves.phase[:, np.newaxis]
     roughness = amplitude[:, np.newaxis] * np.exp(1j * phase)
-    left = np.sqrt(np.mean((films - basis @ film) ** 2, axis=0))
+    residual = np.sqrt(np.mean((films - basis @ film) ** 2, axis=0))
     return Superposition(
         x,
         film[0],
         pressure[0],
         np.asarray(-film_wave / roughness),
         np.asarray(pressure_wave / roughness),
-        left[np.newaxis, :] / amplitude[:, np.newaxis],
+        residual[np.newaxis, :] / amplitude[:, np.newaxis],
         *grid,
     )

@@ -38,7 +38,7 @@ from pyehl.prediction.response import film_left, loss_at
 from pyehl.prediction.rough_contact import RoughContact, missing
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
-from pyehl.theory.elastic_contact import Compliance, Lifted, lifted
+from pyehl.theory.elastic_contact import Compliance, SolidContact, contact_pressures
 from pyehl.theory.heat import Heat
 from pyehl.theory.transport import stiffness
 from pyehl.types import Array, Indices, Mask, Settings
@@ -185,8 +185,8 @@ class MixedContact:
         return True
 
     def _state(
-        self, change: Array, thicker: float, held: Lifted | None
-    ) -> tuple[Lifted | None, tuple[Array, Array, Mask]]:
+        self, change: Array, thicker: float, held: SolidContact | None
+    ) -> tuple[SolidContact | None, tuple[Array, Array, Mask]]:
         """Pressure, film and where bodies touch (m, n), by loss of film and increase of pressure.
 
         `change` (m, n, 2) where films are thicker by a length; also the contact pressure;
@@ -198,7 +198,7 @@ class MixedContact:
         loss -= self._mass_defect(floor - self.film * film_left(loss / self.film))
         sustained = self.film * loss_at(floor / self.film)
         gap = np.where(self.rough.inside, sustained - loss, np.inf)
-        held = lifted(gap, self.lifting, self.boundary, self.load, held)
+        held = contact_pressures(gap, self.lifting, self.boundary, self.load, held)
         lift, more = (0.0, 0.0) if held is None else (held.lift, self.raising(held.pressure))
         film = np.maximum(self.film * film_left((loss - lift) / self.film), floor)
         pressure = np.maximum(linear + more, 0.0)

@@ -336,7 +336,7 @@ class Model:
                 list(zip(spectra, ratios, strict=True)),
                 zone_of(self.contact, o, self.lubricant),
                 circle_of(self.contact, o, self.lubricant),
-                at_amplitude=self.lubricant.shear.weighs_flow,
+                at_amplitude=self.lubricant.shear.friction_matches_flow,
                 mesh=self.mesh,
             )
         moes, convention = (o.moes_m, o.moes_l), options.wavelength_convention

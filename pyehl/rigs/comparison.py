@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Comparison of a study with measurements of a rig."""
+"""Comparison of computed curves with measurements on a rig."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from pyehl.types import Array
 
 @dataclass(frozen=True, slots=True)
 class Deviation:
-    """Computed over measured values less 1, over one range of the condition."""
+    """Computed over measured values minus 1, over one range of the condition."""
 
     low: float
     high: float
     count: int
     mean: float
     rms: float
-    largest: float  # by size, with its sign
-    at: float  # where that is
+    largest: float  # largest by magnitude, with its sign
+    at: float  # condition at which it occurs
 
     def __str__(self) -> str:
-        """One line: range, number of points, mean, root mean square, largest and where."""
+        """Return one line: range, number of points, mean, rms, largest and its condition."""
         return (
             f"{self.low:.4g} to {self.high:.4g}: {self.count} points, mean {self.mean:+.1%}, rms "
             f"{self.rms:.1%}, largest {self.largest:+.1%} at {self.at:.4g}"
@@ -33,7 +33,7 @@ class Deviation:
 
 
 def deviations(curve: Curve, places: Array, values: Array) -> list[Deviation]:
-    """Compare per decade of the condition, then over all.
+    """Compare per decade of the condition, then over the whole range.
 
     Parameters
     ----------

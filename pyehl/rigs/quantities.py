@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Quantities of the columns of a rig file, by their names, and their units."""
+"""Quantities in the columns of a rig file: their names and units."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ KELVIN = 273.15
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A quantity that can be measured: its name in tables of results, unit and names in files."""
+    """A measured quantity: its name in tables of results, its unit, its names in rig files."""
 
     name: str
     unit: str
@@ -69,7 +69,7 @@ FACTORS = {
 
 
 def label_of(cell: str) -> tuple[str, str]:
-    """Split the name of a column into words and unit, which is in brackets: 'srr', '%'."""
+    """Split a column name into words and the unit in brackets: 'srr', '%'."""
     match = re.fullmatch(r"\s*(.*?)\s*[(\[]\s*([^()\[\]]*?)\s*[)\]]\s*", cell)
     words, unit = (match[1], match[2]) if match else (cell, "")
     words = re.sub(r"[\s_\-–]+", " ", words).strip().casefold()
@@ -77,17 +77,17 @@ def label_of(cell: str) -> tuple[str, str]:
 
 
 def quantity_of(cell: str) -> Quantity | None:
-    """Give the quantity that a name of a column means; None if it is none of them."""
+    """Return the quantity of a column name; None if it is unknown."""
     words, _ = label_of(cell)
     for quantity in QUANTITIES:
-        # the names of tables of results are without brackets, and in SI units
+        # names of tables of results have no brackets and imply SI units
         if cell.strip() == quantity.name or words in quantity.known_as:
             return quantity
     return None
 
 
 def in_si(quantity: Quantity, cell: str, values: Array) -> Array:
-    """Convert values of a column; ValueError with the units that are known for another unit."""
+    """Convert values of a column; for an unknown unit ValueError with the known ones."""
     unit = quantity.unit if cell.strip() == quantity.name else label_of(cell)[1]
     factors = FACTORS[quantity.unit]
     if unit not in factors:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Readers of rig files: PCS Instruments EHD and MTM, and plain tables with units.
 
-A reader takes the lines of a file and gives steps, each a table. To add a format, write a function
-and add it to `READERS`. The format of PCS follows the public examples of the package
-`tribology` of M. Ploss (files of an EHD261 and an MTM311).
+A reader takes the lines of a file and yields steps, each a table. To add a format, write a function
+and add it to `READERS`. The PCS reader follows the public example files (EHD261, MTM311) of the
+package `tribology` by M. Ploss.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Step:
 
     title: str
     columns: dict[str, Array]  # by the names of `QUANTITIES`, (n,) in their units; NaN: no value
-    left_out: tuple[str, ...]  # names of columns that are none of them
+    left_out: tuple[str, ...]  # names of unknown columns
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +53,7 @@ def read_rig(path: str | os.PathLike[str]) -> RigFile:
     Parameters
     ----------
     path
-        A text file of PCS EHD or MTM, or a table with units in its header, columns divided by
+        A text file of PCS EHD or MTM, or a table with units in its header, columns separated by
         commas, semicolons or tabs.
 
     Returns
@@ -64,7 +64,7 @@ def read_rig(path: str | os.PathLike[str]) -> RigFile:
     Raises
     ------
     InputError
-        If the file is none of these, or has no measurements; with the columns of the file.
+        If the file is none of these, or has no measurements; names the columns of the file.
     """
     name = os.fspath(path)
     lines = _text(path).splitlines()
@@ -91,7 +91,7 @@ def read_rig(path: str | os.PathLike[str]) -> RigFile:
 
 
 def is_rig(path: str | os.PathLike[str]) -> bool:
-    """Whether a file is that of a rig, or a table with units in its line of names."""
+    """Whether a file comes from a rig, or is a table with units in its header."""
     lines = [line for line in _text(path).splitlines() if line.strip() and line[0] != "#"]
     if not lines:
         return False
@@ -100,7 +100,7 @@ def is_rig(path: str | os.PathLike[str]) -> bool:
 
 
 def _text(path: str | os.PathLike[str]) -> str:
-    """Text of a file, whose encoding instruments choose: UTF-8, UTF-16, else Windows-1252."""
+    """Text of a file; instruments write UTF-8, UTF-16 or Windows-1252."""
     name = os.fspath(path)
     try:
         if Path(path).stat().st_size > MAX_BYTES:
@@ -117,14 +117,14 @@ def _text(path: str | os.PathLike[str]) -> str:
 
 
 def _pcs(name: str, lines: Lines) -> Iterator[Step]:
-    """Give the steps of a file of PCS: 'Step 2 ...', lines about it, names of columns, values."""
+    """Yield the steps of a PCS file: 'Step 2 ...', its description, column names, values."""
     title, number = "", 0
     while number < len(lines):
         line = lines[number]
         if re.match(r"Step \d+", line):
             title = line.partition(" started at")[0]
         cells = line.split("\t")
-        # names of columns: at least two of them are known; the step's own lines have no tables
+        # a line with two or more known column names begins a table
         if sum(quantity_of(cell) is not None for cell in cells) >= 2:
             last = number + 1
             while last < len(lines) and lines[last].strip() and _is_number(lines[last]):
@@ -144,7 +144,7 @@ def _is_number(line: str) -> bool:
 
 
 def _table(name: str, lines: Lines) -> Iterator[Step]:
-    """Give one table: comments (#), a line of names, values."""
+    """Yield one table: comments (#), a line of names, values."""
     numbers = [n for n, line in enumerate(lines) if line.strip() and not line.startswith("#")]
     if not numbers:
         return
@@ -162,7 +162,7 @@ def _table(name: str, lines: Lines) -> Iterator[Step]:
 def _step(
     name: str, title: str, head: Sequence[str], rows: Sequence[Sequence[str]], line: int
 ) -> Step:
-    """Known columns, each in its unit; of two with the same name the one with more values."""
+    """Return the known columns in their units; of two for one quantity that with more values."""
     columns: dict[str, Array] = {}
     left_out: list[str] = []
     for k, cell in enumerate(head):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Means of repeated measurements, with their scatter."""
+"""Means of repeated measurements, with their standard deviations and errors."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from pyehl.rigs.quantities import CONDITIONS, ERRORS, Quantity
 from pyehl.rigs.reading import Step
 from pyehl.types import Array
 
-# Conditions that differ less, relatively, are the same if they are far nearer than the next ones
+# Repeats: conditions with a relative difference below both SAME and NEARER times the typical gap
 SAME, NEARER = 0.03, 0.25
 # Minimum number of repeats whose own scatter is used; else the scatter of all is used
-MANY = 5
+MIN_REPEATS = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,18 +24,18 @@ class Curve:
 
     over: str
     quantity: str
-    places: Array  # (n,) ascending
+    places: Array  # values of the condition (n,), ascending
     values: Array  # means (n,)
-    scatter: Array  # standard deviation over repeats (n,); NaN of a single value
-    error: Array  # of the means (n,); NaN where it is not known
-    count: Array  # repeats (n,)
-    conditions: dict[str, tuple[float, float]]  # smallest and largest of the other conditions
+    scatter: Array  # standard deviation over repeats (n,); NaN for a single value
+    error: Array  # error of the means (n,); NaN where it is not known
+    count: Array  # number of repeats (n,)
+    conditions: dict[str, tuple[float, float]]  # minimum and maximum of the other conditions
 
 
 def varied(steps: Sequence[Step]) -> Quantity | None:
-    """Give the condition that changes most, in logarithms (the slip by its values); None if none.
+    """Return the condition with the largest ratio of maximum to minimum; None if none varies.
 
-    Values below zero count by their size.
+    Negative values count by their magnitude, zeros and missing values not at all.
     """
     spans = {}
     for quantity in CONDITIONS:
@@ -51,8 +51,9 @@ def varied(steps: Sequence[Step]) -> Quantity | None:
 def averaged(steps: Sequence[Step], quantity: Quantity, over: Quantity) -> Curve:
     """Average the measurements of a quantity over a condition.
 
-    The error of a mean is that of its repeats, or of all repeats as a share of their means, over
-    the root of their number. Without repeats it is what the file states.
+    The error of a mean is the standard deviation of its repeats over the square root of their
+    number; below `MIN_REPEATS` repeats the relative standard deviation is pooled over all points.
+    Without any repeats it is the error stated in the file.
     """
     used = [s for s in steps if quantity.name in s.columns and over.name in s.columns]
     places = np.concatenate([s.columns[over.name] for s in used])
@@ -76,7 +77,7 @@ def averaged(steps: Sequence[Step], quantity: Quantity, over: Quantity) -> Curve
         free = np.where(counts > 1, counts - 1.0, 0.0)
         shares = np.nan_to_num(scatter / mean) ** 2
         pooled = float(np.sqrt((free * shares).sum() / free.sum())) * np.abs(mean)
-        error = np.where(counts < MANY, pooled, scatter) / np.sqrt(counts)
+        error = np.where(counts < MIN_REPEATS, pooled, scatter) / np.sqrt(counts)
     others = {}
     for condition in CONDITIONS:
         parts = [s.columns[condition.name] for s in used if condition.name in s.columns]
@@ -87,10 +88,10 @@ def averaged(steps: Sequence[Step], quantity: Quantity, over: Quantity) -> Curve
 
 
 def _groups(places: Array) -> list[Array]:
-    """Give indices of ascending places that are the same within the scatter of a set point.
+    """Return indices of ascending conditions grouped into repeats of one set point.
 
-    They are one if they differ by less than `SAME` and by less than `NEARER` of the gap to the
-    next ones; a finely stepped curve has gaps alone.
+    Neighbours are repeats if they differ by less than `SAME` and `NEARER` times the median gap
+    between set points; a finely stepped curve has no repeats.
     """
     gaps = np.diff(places) / np.maximum(np.abs(places[1:]), 1e-300)
     large = gaps[gaps >= SAME]

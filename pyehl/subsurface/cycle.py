@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stress cycles of material points on their way through the contact, fatigue and life.
+"""Stress cycles of material points that pass through the contact, fatigue and life.
 
 Arrays of stress have the six components first, in the order of `pyehl.subsurface.half_space`.
 
 Criteria of multiaxial fatigue
 ------------------------------
-Both weigh the amplitude of the deviator against the hydrostatic stress, with two fatigue limits of
-the material, in fully reversed torsion and bending. The amplitude is the radius of the smallest
-hypersphere around the path of the deviator s, with the norm sqrt(s:s/2); its centre is the mean
-(:class:`Cycle`).
+Both combine the amplitude of the deviator with the hydrostatic stress, by the fatigue limits of
+the material in fully reversed torsion, t, and bending, f. The amplitude is the radius of the
+smallest hypersphere around the path of the deviator s, with the norm sqrt(s:s/2); its centre is the
+mean (:class:`Cycle`).
 
 - Dang Van 1993 (ASTM STP 1191, 120): max over time of tau(t) + a p(t), where tau is the largest
-  shear of s(t) less the centre of the sphere, p the hydrostatic stress, a = 3 (t/f - 1/2).
-- Crossland 1956 (Int. Conf. Fatigue of Metals, London, 138): the radius, plus a times the largest
+  shear of s(t) minus the centre of the sphere, p the hydrostatic stress, a = 3 (t/f - 1/2).
+- Crossland 1956 (Int. Conf. Fatigue of Metals, London, 138): the radius plus a times the largest
   p, a = 3 t/f - sqrt(3).
 
-Each is below the limit in torsion t where the material endures.
+The material endures where the criterion is below t.
 
 The life modification factor of rolling bearings by the film ratio is for comparison.
 """
@@ -40,7 +40,7 @@ def hydrostatic(stress: Array) -> Array:
 
 
 def deviator(stress: Array) -> Array:
-    """Stress less its mean normal stress, (6, ...) [Pa]."""
+    """Stress minus its mean normal stress, (6, ...) [Pa]."""
     result = stress.copy()
     result[:3] -= hydrostatic(stress)
     return result
@@ -80,19 +80,19 @@ def shear_and_mises(stress: Array) -> tuple[Array, Array]:
     root = np.sqrt(j2)
     with np.errstate(invalid="ignore", divide="ignore"):
         cosine = 1.5 * np.sqrt(3.0) * j3 / (j2 * root)
-    # rounding alone takes the cosine out of [-1, 1]; J2 = 0 has no shear
+    # only rounding moves the cosine outside [-1, 1]; J2 = 0 has no shear
     angle = np.arccos(np.clip(np.nan_to_num(cosine), -1.0, 1.0)) / 3.0
-    # the outer two differ by 2 sqrt(J2) sin(angle + pi/3)
+    # the largest and the smallest differ by 2 sqrt(J2) sin(angle + pi/3)
     return root * np.sin(angle + np.pi / 3.0), np.sqrt(3.0) * root
 
 
-# Lines across the motion whose material points have a history
+# Maximum number of lines along the motion whose material points are followed
 LINES = 33
-# Way of a point through the contact that a history has at least [semi-axes]: the diameter
-WAY = 2.0
-# Steps of the way to the centre of the sphere; the radius is then right to about 1/STEPS of itself
+# Minimum distance that a point moves in a complete history [semi-axes]: the diameter
+MIN_DISTANCE = 2.0
+# Iterations for the centre of the sphere; the relative error of the radius is about 1/STEPS
 STEPS = 200
-# Points for which the sphere is found, those of the largest bounds
+# Number of points for which the sphere is computed, those with the largest bounds
 CANDIDATES = 64
 
 
@@ -100,12 +100,12 @@ CANDIDATES = 64
 class Cycle:
     """Material points that may have the largest amplitude at one depth, and their stress cycles.
 
-    Stresses in the unit of the history.
+    Stresses have the unit of the history.
     """
 
     history: Array  # (6, times, points)
     mean: Array  # centre of the path of the deviator (6, points)
-    amplitude: Array  # radius of the sphere around it (points,)
+    amplitude: Array  # radius of the sphere around the path (points,)
     hydrostatic_mean: Array  # middle of the range of the hydrostatic stress (points,)
     hydrostatic_amplitude: Array  # half that range (points,)
 
@@ -113,7 +113,7 @@ class Cycle:
     def of(cls, history: Array, weight: float = 0.0) -> Cycle:
         """Find the `CANDIDATES` of a history (6, times, points).
 
-        They have the largest bounds of amplitude plus `weight` times the hydrostatic stress.
+        They have the largest bounds on amplitude plus `weight` times the hydrostatic stress.
         """
         s, pressure = deviator(history), hydrostatic(history)
         bound = _norm(0.5 * (s.max(axis=1) - s.min(axis=1))) + weight * pressure.max(axis=0)
@@ -125,17 +125,17 @@ class Cycle:
 
     @property
     def worst(self) -> int:
-        """The point of the largest amplitude."""
+        """Index of the point with the largest amplitude."""
         return int(self.amplitude.argmax())
 
 
 class History:
     """Stress of material points over time; they move with the surface of the body.
 
-    Under a smooth contact all points of a line along the motion have one history. Under a passage a
-    point is followed through the instants; between nodes it is interpolated, and outside of the
-    domain it has the stress at its border. Where the passage repeats itself (`Loads.period`), it is
-    followed over the whole domain, from each of the instants on; else up to the end of the run.
+    Under a smooth contact all points of a line along the motion have the same history. Under a
+    rough one a point is followed through the instants; stress is interpolated between nodes, and
+    outside the domain it is that at the border. If the load is periodic in time (`Loads.period`),
+    a point is followed over the whole domain from each instant on; else up to the end of the run.
     """
 
     def __init__(self, loads: Loads) -> None:
@@ -150,7 +150,7 @@ class History:
         self.instants.append(lines.astype(np.float32) if self.loads.times.size else lines)
 
     def of_points(self) -> Array:
-        """Give the history (6, times, points)."""
+        """Return the history (6, times, points)."""
         loads = self.loads
         if not loads.times.size:
             return self.instants[0]
@@ -171,25 +171,25 @@ class History:
         ]
 
     def _at(self, instant: int, places: Array) -> Array:
-        """Stress (6, places, lines) of an instant at places along x [a]."""
+        """Stress (6, places, lines) at an instant and places along x [a]."""
         x = self.loads.x
         place = (places - x[0]) / (x[1] - x[0])
         left = np.clip(np.floor(place), 0, x.size - 2).astype(int)
-        share = np.clip(place - left, 0.0, 1.0)[np.newaxis, :, np.newaxis]
+        weight = np.clip(place - left, 0.0, 1.0)[np.newaxis, :, np.newaxis]
         lines = self.instants[instant]
-        return np.asarray(lines[:, left] * (1.0 - share) + lines[:, left + 1] * share)
+        return np.asarray(lines[:, left] * (1.0 - weight) + lines[:, left + 1] * weight)
 
 
 def incomplete(loads: Loads) -> str:
     """Say why the loads give no history of a whole passage; '' if they do."""
     if not loads.times.size or loads.period > 0.0:
         return ""
-    way = abs(loads.velocity) * float(loads.times[-1] - loads.times[0])
-    if way >= WAY:
+    distance = abs(loads.velocity) * float(loads.times[-1] - loads.times[0])
+    if distance >= MIN_DISTANCE:
         return ""
     return (
-        f"the {loads.times.size} instants of the run cover {way:.2g} a of the way of the surface; "
-        f"mean and amplitude need {WAY:g} a (output.frame_interval)"
+        f"the {loads.times.size} instants of the run cover {distance:.2g} a of the way of the "
+        f"surface; mean and amplitude need {MIN_DISTANCE:g} a (output.frame_interval)"
     )
 
 
@@ -201,9 +201,9 @@ def _norm(s: Array) -> Array:
 def smallest_sphere(path: Array) -> tuple[Array, Array]:
     """Centre (6, points) and radius (points,) of the smallest spheres around paths.
 
-    Paths are (6, times, points). By steps of falling length towards the farthest point (Badoiu &
-    Clarkson 2003); the radius is the distance of the farthest point from that centre, so that
-    it is an upper bound.
+    Paths are (6, times, points). Steps of decreasing length go towards the farthest point (Badoiu &
+    Clarkson 2003); the radius is the distance of the farthest point from the centre, so that it is
+    an upper bound.
     """
     centre = 0.5 * (path.max(axis=1) + path.min(axis=1))
     best, radius = centre.copy(), np.full(centre.shape[1], math.inf)
@@ -250,7 +250,7 @@ CRITERIA = ("dang-van", "crossland")
 
 @dataclass(frozen=True, slots=True)
 class Fatigue:
-    """A criterion with the limits in torsion and bending [Pa]; InputError if they do not fit."""
+    """A criterion with the limits in torsion and bending [Pa]; InputError if they are invalid."""
 
     criterion: str
     torsion_limit: float
@@ -287,10 +287,10 @@ class Fatigue:
 
 
 BEARINGS = ("ball", "roller")
-# Range of the viscosity ratio in which the factor has formulas, and its largest value
+# Range of the viscosity ratio in which the standard defines the factor, and the largest factor
 KAPPA_MIN, KAPPA_MAX, MAX_A_ISO = 0.1, 4.0, 50.0
-# Radial bearings, ISO 281:2007, 9.3.3.3: constants by the upper end of kappa: A, B and exponent of
-# A - B/kappa^n; then the exponents of the bracket and of the contamination term
+# Radial bearings, ISO 281:2007, 9.3.3.3: upper limit of kappa, and A, B and n of A - B/kappa^n;
+# below, the exponents of that term, of the contamination term and of the bracket
 _BALL = (
     (0.4, 2.5671, 2.2649, 0.054381),
     (1.0, 2.5671, 1.9987, 0.19087),
@@ -305,7 +305,7 @@ _EXPONENTS = {"ball": (0.83, 1.0 / 3.0, -9.3), "roller": (1.0, 0.4, -9.185)}
 
 
 def kappa_of(lambda_ratio: float) -> float:
-    """Viscosity ratio kappa [-] of a film ratio Lambda: Lambda^1.3 (ISO/TR 1281-2)."""
+    """Viscosity ratio kappa [-] for a film ratio Lambda: Lambda^1.3 (ISO/TR 1281-2)."""
     return lambda_ratio**1.3
 
 
@@ -315,7 +315,7 @@ def a_iso(kappa: float, contamination: float, bearing: str) -> float:
     Parameters
     ----------
     kappa
-        Viscosity ratio [-], `KAPPA_MIN` to `KAPPA_MAX`; above it counts as `KAPPA_MAX`.
+        Viscosity ratio [-], at least `KAPPA_MIN`; values above `KAPPA_MAX` count as `KAPPA_MAX`.
     contamination
         e_C C_u/P: contamination factor times fatigue load limit over equivalent load [-].
     bearing
@@ -324,7 +324,7 @@ def a_iso(kappa: float, contamination: float, bearing: str) -> float:
     Returns
     -------
     float
-        At most 50, as the standard states. NaN below `KAPPA_MIN`, where it gives none.
+        At most 50, as the standard requires; NaN below `KAPPA_MIN`, where it is not defined.
 
     Raises
     ------

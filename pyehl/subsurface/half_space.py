@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stress in an elastic half-space under pressure and shear traction on its surface, by Fourier.
+"""Stress in an elastic half-space under pressure and shear traction on its surface, by FFT.
 
 The half-space is z > 0, x along the motion. A wave exp(i k.x) of the pressure p, or of the traction
 q that acts on the solid, has the plane strain solution of its wavenumber k = |k| (Johnson 1985,
@@ -15,9 +15,9 @@ lz         i k z e             -(1 - k z) e                   0
 lt, tz     0                   0                              i e, -e
 =========  ==================  =============================  ==============
 
-Tension is positive. The transform makes the load periodic. The stress of its images changes slowly
-over the contact, so that it is computed on a coarse grid and subtracted: as the difference between
-two cells, the second one `FAR` times as large.
+Tension is positive. The transform makes the load periodic. The stress caused by the periodic images
+varies slowly over the contact; it is computed on a coarse grid, as the difference between two
+periodic cells of which the second is `FAR` times as large, and subtracted.
 """
 
 from __future__ import annotations
@@ -31,10 +31,9 @@ from pyehl.types import Array, Complex
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 """Order of the components in all arrays of stresses."""
-# Sides of the cell of the coarse grid over those of the fine one; of a line, whose images fall off
-# more slowly
+# Size of the larger cell over that of the periodic cell; for a line, whose images decay more slowly
 FAR, FAR_LINE = 8, 64
-# Blocks of the grid along a side that the coarse grid has at least
+# Minimum number of blocks of the coarse grid along a side
 BLOCKS = 24
 
 
@@ -44,14 +43,14 @@ class _Waves:
 
     cell: tuple[int, int]
     k: Array
-    c: Array  # of odd powers
+    c: Array  # cos for odd powers, 0 at the Nyquist wave
     s: Array
     cc: Array  # cos^2
     ss: Array
 
     @classmethod
     def of(cls, cell: tuple[int, int], mesh: tuple[float, float], mean: float) -> _Waves:
-        """Give the waves; `mean` is the cos^2 of the mean over the cell, which has no direction."""
+        """Return the waves; `mean` is cos^2 for k = 0, which has no direction."""
         kx = 2.0 * np.pi * scipy.fft.fftfreq(cell[0], mesh[0])[:, None]
         ky = 2.0 * np.pi * scipy.fft.rfftfreq(cell[1], mesh[1])[None, :]
         k = np.hypot(kx, ky)
@@ -60,7 +59,7 @@ class _Waves:
         k[0, 0] = 0.0
         cc, ss = c**2, s**2
         cc[0, 0], ss[0, 0] = mean, 1.0 - mean
-        # a real transform has no odd part at the Nyquist wave
+        # a real transform has no odd part at the Nyquist wavenumber
         if cell[0] % 2 == 0:
             c[cell[0] // 2, :] = 0.0
         if cell[1] % 2 == 0:
@@ -68,7 +67,7 @@ class _Waves:
         return cls(cell, k, c, s, cc, ss)
 
     def by_pressure(self, depth: float, nu: float) -> list[Array | Complex]:
-        """Stress of each wave of a unit pressure, by `COMPONENTS`."""
+        """Stress of each wave for unit pressure, by `COMPONENTS`."""
         kz, c, s, cc, ss = self.k * depth, self.c, self.s, self.cc, self.ss
         e = np.exp(-kz)
         return [
@@ -81,7 +80,7 @@ class _Waves:
         ]
 
     def by_traction(self, depth: float, nu: float) -> list[Array | Complex]:
-        """Stress of a unit traction along x: its parts are c along k and -s across it."""
+        """Stress for unit traction along x, whose components are c along k and -s across it."""
         kz, c, s, cc, ss = self.k * depth, self.c, self.s, self.cc, self.ss
         e = np.exp(-kz)
         return [
@@ -96,7 +95,7 @@ class _Waves:
 
 @dataclass(frozen=True, slots=True)
 class _Kernels:
-    """Responses at one depth on one cell."""
+    """Fourier kernels of the stress at one depth on one cell."""
 
     cell: tuple[int, int]
     of_pressure: list[Array | Complex]
@@ -129,7 +128,7 @@ class HalfSpace:
     poisson
         Ratio nu [-].
     periodic
-        Whether the load repeats itself along x and along y; along y alone it is a line contact.
+        Whether the load is periodic along x and along y; along y alone it is a line contact.
     """
 
     def __init__(
@@ -151,16 +150,16 @@ class HalfSpace:
             self._far = Images(shape, blocks, coarse_mesh, near_cell, periodic, mean)
 
     def layer(self, depth: float) -> Layer:
-        """Give the responses at a depth, in the unit of the mesh sizes."""
+        """Return the kernels at a depth, in the unit of the mesh sizes."""
         fine = _Kernels.of(self._waves, depth, self.poisson)
         return Layer(fine, self._far.at(depth, self.poisson) if self._far else None)
 
 
 class Images:
-    """Images of a load in the periodic cell, on the coarse grid.
+    """Stress caused by the periodic images of a load, on a coarse grid.
 
-    For loads on the grid of `shape`, in blocks of nodes that make a coarse grid of a mesh, on a
-    cell of so many blocks.
+    Loads are on a grid of `shape`; `blocks` of its nodes form the cells of the coarse grid, which
+    has mesh sizes `mesh` and a periodic cell of `cell` blocks.
     """
 
     def __init__(
@@ -172,25 +171,25 @@ class Images:
         periodic: tuple[bool, bool],
         mean: float,
     ) -> None:
-        # images of a line fall off with the distance, those of a contact with its square
+        # the effect of images decays as 1/distance for a line, as its square for a contact
         far = FAR_LINE if any(periodic) else FAR
         self.falls = float(far if any(periodic) else far**2)
         self.blocks = blocks
         self.to_fine = [_interpolation(n, b) for n, b in zip(shape, blocks, strict=True)]
         far_x, far_y = (n if p else far * n for n, p in zip(cell, periodic, strict=True))
         self._waves = [_Waves.of(c, mesh, mean) for c in (cell, (far_x, far_y))]
-        # offsets between the blocks, in the order of a cyclic convolution
+        # offsets between blocks, in the order of a cyclic convolution
         self._offsets = [
             np.fft.ifftshift(np.arange(1 - m.shape[1], m.shape[1])) for m in self.to_fine
         ]
 
     def at(self, depth: float, nu: float) -> ImagesAt:
-        """Give the responses of the images at a depth."""
+        """Return the kernels of the images at a depth."""
         near, far = (_Kernels.of(waves, depth, nu) for waves in self._waves)
         return ImagesAt(self, near, far)
 
     def transforms(self, near: _Kernels, far: _Kernels, name: str) -> list[Complex]:
-        """Transform the responses of images to a load of one block."""
+        """Return the transformed stress of the images of a load on one block."""
         result = []
         for pair in zip(getattr(near, name), getattr(far, name), strict=True):
             one, other = (
@@ -204,14 +203,14 @@ class Images:
 
 
 class ImagesAt:
-    """Images at one depth, for any number of loads."""
+    """Stress of the images at one depth, for any number of loads."""
 
     def __init__(self, images: Images, near: _Kernels, far: _Kernels) -> None:
         self._images, self._pair = images, (near, far)
         self._kernels: dict[str, list[Complex]] = {}
 
     def under(self, pressure: Array, traction: Array | None) -> Array:
-        """Stress of the images of loads (nx, ny): (6, nx, ny)."""
+        """Return the stress (6, nx, ny) of the images of loads (nx, ny)."""
         images = self._images
         total: list[Complex] = []
         for name, load in (("of_pressure", pressure), ("of_traction", traction)):
@@ -230,10 +229,7 @@ class ImagesAt:
         return np.asarray(to_x @ result @ to_y.T)
 
     def left(self, pressure: Array, traction: Array | None) -> float:
-        """Bound of the stress of images that is not subtracted.
-
-        Those of the far cell are `FAR` times as far away.
-        """
+        """Bound on the remaining stress of images, those of the larger cell."""
         return float(np.max(np.abs(self.under(pressure, traction)))) / self._images.falls
 
 
@@ -260,12 +256,12 @@ class Layer:
         return stress
 
     def error(self, pressure: Array, traction: Array | None = None) -> float:
-        """Bound of the error of `under` by the periodic cell [Pa]; 0 for a periodic load."""
+        """Bound on the error of `under` by the periodic cell [Pa]; 0 for a periodic load."""
         return self.images.left(pressure, traction) if self.images else 0.0
 
 
 def _blocks(n: int, periodic: bool) -> tuple[int, int]:
-    """Nodes of a block of the coarse grid, and nodes of the periodic cell, along a side."""
+    """Nodes per block of the coarse grid, and nodes of the periodic cell, along a side."""
     if periodic:
         return 1, n
     block = max(1, n // BLOCKS)
@@ -273,7 +269,7 @@ def _blocks(n: int, periodic: bool) -> tuple[int, int]:
 
 
 def _block_means(values: Array, blocks: tuple[int, int]) -> Array:
-    """Means over blocks of nodes; beyond the last node there are zeros."""
+    """Means over blocks of nodes, padded with zeros beyond the last node."""
     (nx, ny), (bx, by) = values.shape, blocks
     whole = np.zeros((-(-nx // bx) * bx, -(-ny // by) * by))
     whole[:nx, :ny] = values
@@ -281,7 +277,7 @@ def _block_means(values: Array, blocks: tuple[int, int]) -> Array:
 
 
 def _interpolation(n: int, block: int) -> Array:
-    """Linear interpolation, (n, blocks), from the middles of blocks to nodes; beyond, extended."""
+    """Matrix (n, blocks) of linear inter- and extrapolation from the centres of blocks to nodes."""
     blocks = -(-n // block)
     place = (np.arange(n) - 0.5 * (block - 1)) / block
     left = np.clip(np.floor(place), 0, max(blocks - 2, 0)).astype(int)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pressure and shear traction on a body, from a result: one instant, or those of a passage.
+"""Pressure and shear traction on a body from a result: one instant, or all instants of a run.
 
-Lengths are in the semi-axis a along the motion, stresses in p_h, times in a/u.
+Lengths are scaled by the semi-axis a along the motion, stresses by p_h, times by a/u.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-# Of steel, for cases without the group bodies
+# Poisson ratio of steel, for cases without the group bodies
 DEFAULT_POISSON = 0.3
 MAX_FRICTION = 2.0
-# A step at an edge: traction over the largest one, and over that of the next node
+# Criteria of a step: traction at the edge over the largest one, and over that of the next node
 STEP, FLAT = 0.1, 0.85
 
 
@@ -41,30 +41,30 @@ STEP, FLAT = 0.1, 0.85
 class Load:
     """Load on the surface of the body at an instant."""
 
-    time: float  # [a/u]; NaN of a smooth contact
+    time: float  # [a/u]; NaN for a smooth contact
     pressure: Array  # (nx, ny) [p_h]
     traction: Array | None  # along x (nx, ny) [p_h]
 
 
 @dataclass(frozen=True, slots=True)
 class Loads:
-    """The loads of a result, and the body that they act on."""
+    """The loads of a result, and the body on which they act."""
 
     x: Array  # (nx,) [a]
     y: Array  # (ny,) [a]
     smooth: Load
-    times: Array  # (n,) of the rough contact [a/u]; none of a smooth one
+    times: Array  # instants (n,) of the rough contact [a/u]; empty for a smooth one
     pressures: Callable[[int], Array]
     films: Callable[[int], Array]
     traction: Traction
     body: int
-    velocity: float  # of its surface over the mean one
+    velocity: float  # velocity of its surface over the mean velocity
     poisson: float
-    semi_axis_y: float  # [a]; infinite of a line
+    semi_axis_y: float  # [a]; infinite for a line
     operating: AnyContact
     friction_note: str
-    pressure_error: float  # relative, of the maximum pressure; NaN where it is not known
-    period: float  # after which the rough contact repeats itself [a/u]; 0 where it does not
+    pressure_error: float  # relative error of the maximum pressure; NaN where it is not known
+    period: float  # period of the rough contact [a/u]; 0 if it is not periodic
 
     @property
     def mesh(self) -> tuple[float, float]:
@@ -73,29 +73,29 @@ class Loads:
 
     @property
     def periodic(self) -> tuple[bool, bool]:
-        """Whether the loads repeat along x and along y: a line contact is a strip that does."""
+        """Whether the loads are periodic along x and along y: a line contact is along y."""
         return False, math.isinf(self.semi_axis_y)
 
     @property
     def short_side(self) -> float:
-        """Half width of the dry contact on its short side [a]."""
+        """Shorter semi-axis of the dry contact [a]."""
         return min(1.0, self.semi_axis_y)
 
     def rough(self) -> Iterator[Load]:
-        """Give the loads of the rough contact, one after the other."""
+        """Yield the loads of the rough contact, one after the other."""
         for k, time in enumerate(self.times):
             pressure = self.pressures(k)
             film = self.films(k) if self.traction.by_film else None
             yield Load(float(time), pressure, self.traction(pressure, film, True))
 
-    def contact(self, share: float = 1.0) -> Mask:
-        """Nodes (nx, ny) in the dry contact, or within a share of its semi-axes."""
+    def contact(self, fraction: float = 1.0) -> Mask:
+        """Nodes (nx, ny) within the dry contact, or within a fraction of its semi-axes."""
         across = self.y / self.semi_axis_y
-        return np.hypot(self.x[:, np.newaxis], across[np.newaxis, :]) <= share
+        return np.hypot(self.x[:, np.newaxis], across[np.newaxis, :]) <= fraction
 
 
 def _steps(x: Array, y: Array) -> tuple[float, float]:
-    """Mesh sizes [a] of axes (nx,), (ny,); one row has square cells."""
+    """Mesh sizes [a] of axes (nx,), (ny,); a single row has square cells."""
     step = float(x[1] - x[0])
     return step, float(y[1] - y[0]) if y.size > 1 else step
 
@@ -103,9 +103,9 @@ def _steps(x: Array, y: Array) -> tuple[float, float]:
 def steep_edge(traction: Array | None) -> bool:
     """Whether a traction (nx, ny) ends in a step along x, or at the border of the grid.
 
-    Then the stress along x is not finite at the surface (Johnson 1985, chapter 2.5). A traction
-    that falls to 0 like the root of the distance loses 30 % from the second node to the last one, a
-    linear one 50 %.
+    Then the stress along x is not finite at the surface (Johnson 1985, chapter 2.5). From the
+    second node to the last a traction that vanishes as the square root of the distance decreases by
+    30 %, a linear one by 50 %.
     """
     if traction is None:
         return False
@@ -120,7 +120,7 @@ def steep_edge(traction: Array | None) -> bool:
 
 
 def check_friction(friction: str | float) -> None:
-    """InputError for a friction that is neither 'run', 'none' nor a coefficient."""
+    """Raise InputError for a friction that is neither 'run', 'none' nor a coefficient."""
     if isinstance(friction, str) and friction in ("run", "none"):
         return
     if isinstance(friction, int | float) and not isinstance(friction, bool):
@@ -132,9 +132,9 @@ def check_friction(friction: str | float) -> None:
 
 
 def body_of(settings: Settings, body: int | None) -> tuple[int, float, float]:
-    """Give number of the body, velocity ratio of its surface, and its Poisson ratio.
+    """Return the number of a body, the velocity ratio of its surface, and its Poisson ratio.
 
-    Without a number it is the one with the surface of the case.
+    `body` None: the body with the surface of the case.
     """
     contact = settings["contact"]
     number = int(contact["rough_surface"]) if body is None else body
@@ -154,9 +154,10 @@ def _value(data: xr.Dataset, name: str) -> float:
 def friction_of(
     data: xr.Dataset, operating: AnyContact, lubricant: Lubricant | None, friction: str | float
 ) -> tuple[float, float, str]:
-    """Give the coefficients of friction of the smooth and of the rough contact, and a note.
+    """Return the coefficient of friction of the smooth contact, the heat factor, and a note.
 
-    The second one is over that by the isothermal law. NaN: without friction.
+    The factor is the effect of frictional heating on the traction of the rough contact, over that
+    on the smooth one. NaN: without friction.
     """
     if friction == "none" or (friction != "run" and friction == 0.0):
         return math.nan, math.nan, "without friction, as requested"
@@ -168,7 +169,7 @@ def friction_of(
         return math.nan, math.nan, "without friction: pure rolling"
     mu = [_value(data, n) for n in ("mu_smooth", "mu_smooth_isothermal", "mu", "mu_isothermal")]
     if math.isfinite(mu[1]) and not math.isfinite(mu[0]):
-        # the smooth contact under a rough one with heat: as warm as the rough one
+        # the smooth contact is taken to be as warm as the rough one
         mu[0] = mu[1] * mu[2] / mu[3]
     smooth = mu[0] if math.isfinite(mu[0]) else mu[2]
     if not math.isfinite(smooth):
@@ -198,7 +199,7 @@ class Traction:
         self.operating, self.lubricant, self.coulomb = operating, lubricant, friction != "run"
         self.mu, self.heat, _ = result
         self.by_film = math.isfinite(self.mu) and not self.coulomb
-        # the faster body is held back
+        # friction retards the faster body
         faster = operating.slide_to_roll >= 0.0
         self.sign = -1.0 if (body == 1) == faster else 1.0
         self.scale = 1.0
@@ -210,7 +211,7 @@ class Traction:
             self.scale = self.mu * load / total
 
     def _by_law(self, pressure: Array, film: Array | None) -> Array:
-        """Shear stress [p_h] of the isothermal film, where there is pressure."""
+        """Shear stress [p_h] of the isothermal film, 0 where there is no pressure."""
         assert self.lubricant is not None
         assert film is not None
         p_h = self.operating.hertz_pressure
@@ -220,7 +221,7 @@ class Traction:
         return np.where(p > 0.0, shear_stress(newtonian, p, self.lubricant.shear), 0.0) / p_h
 
     def __call__(self, pressure: Array, film: Array | None, rough: bool) -> Array | None:
-        """Give the traction (nx, ny) [p_h]; None without friction, a film only where `by_film`."""
+        """Return the traction (nx, ny) [p_h], None without friction; only `by_film` uses `film`."""
         if not math.isfinite(self.mu):
             return None
         if self.coulomb:
@@ -230,14 +231,14 @@ class Traction:
 
 
 def loads_of(data: xr.Dataset, *, body: int | None, friction: str | float) -> Loads:
-    """Give the loads of a solution.
+    """Return the loads of a solution.
 
-    Of a rough contact those of its frames, or without frames of the end of the run.
+    For a rough contact those of its frames, or, without frames, those at the end of the run.
 
     Raises
     ------
     InputError
-        If the result has no fields or is none, or for a body or friction that cannot be.
+        If the result is not converged or has no fields, or for an invalid body or friction.
     """
     if data.attrs.get("status") != "converged":
         raise InputError(f"stress needs a solution; the status is {data.attrs.get('status')!r}")
@@ -277,10 +278,10 @@ def made_of(
     friction: str | float,
     period: float = 0.0,
 ) -> Loads:
-    """Put the loads of a result together.
+    """Assemble the loads of a result.
 
-    Axes (nx,), (ny,) [a]; pressure [p_h] and film [m] of the smooth contact (nx, ny), and those at
-    the times [a/u] of the rough one, which repeats itself after a period, if one is given.
+    Axes (nx,), (ny,) [a]; pressure [p_h] and film [m] of the smooth contact (nx, ny), and those of
+    the rough one at the times [a/u]; `period` is not 0 if it is periodic in time.
     """
     settings = settings_of(data)
     operating = contact_of(settings)
@@ -309,20 +310,20 @@ def made_of(
     )
 
 
-# Positions over the length of a tile
+# Number of positions along a tile
 POSITIONS = 16
-# Margin around the dry contact [semi-axes]; points per semi-axis under two surfaces
+# Margin around the dry contact [semi-axes]; points per semi-axis for two surfaces
 MARGIN, GRID_POINTS = 0.3, 128.0
 
 
 def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float) -> Loads:
-    """Give the loads of a prediction: its smooth contact is solved again, a second or so.
+    """Return the loads of a prediction; solves its smooth contact again, in about a second.
 
     Raises
     ------
     InputError
-        If nothing is predicted, by the model of the paper, or for a body or friction that cannot
-        be.
+        If the status is not 'predicted', for the model of the paper, or for an invalid body or
+        friction.
     """
     if data.attrs.get("status") != "predicted":
         raise InputError(f"stress needs a prediction; the status is {data.attrs.get('status')!r}")
@@ -344,11 +345,11 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
     )
     smooth, oil = solve_contact(settings), Lubricant.from_settings(settings)
     model = Model(surfaces, smooth, operating, oil, ModelOptions())
-    # two surfaces that move together are one
+    # two surfaces of the same velocity act as one
     model = model.merged or model
     waves = model.components()
     contact = _contact(model, waves)
-    # a strip repeats along y
+    # a line contact is periodic along y
     x = _with_margin(contact.x)
     y = contact.y if operating.ellipse.is_line else _with_margin(contact.y)
     pressure, film = smooth.at(x, y)
@@ -360,7 +361,7 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
     period = length / slowest
     step = period / POSITIONS
     if len(model.surfaces) > 1:
-        # two surfaces do not repeat themselves: a point is followed through the contact
+        # two surfaces have no common period: a point is followed through the contact
         period = 0.0
         times = np.arange(0.0, (x[-1] - x[0]) / slowest, step)
     else:
@@ -375,9 +376,9 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
 
     def pressures(k: int) -> Array:
         result = pressure.copy()
-        gained = contact.pressure + np.where(contact.inside, change(k)[..., 1], 0.0)
-        # cavitation: `cavitated_share` of the prediction states on how much of the contact
-        result[inner] = np.maximum(gained, 0.0)
+        rough = contact.pressure + np.where(contact.inside, change(k)[..., 1], 0.0)
+        # cavitation, on `cavitated_share` of the contact in the prediction
+        result[inner] = np.maximum(rough, 0.0)
         return result
 
     def films(k: int) -> Array:
@@ -401,14 +402,14 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
 
 
 def _tile(data: xr.Dataset, side: str) -> Topography:
-    """Give the tile of a surface that a prediction holds."""
+    """Return the tile of a surface from the Dataset of a prediction."""
     axes = (data[f"{side}{name}_m"].values for name in "xy")
     length, width = (axis.size * float(axis[1] - axis[0]) for axis in axes)
     return Topography(data[f"{side}surface_m"].values, size=(length, width))
 
 
 def _contact(model: Model, waves: list[Component]) -> RoughContact:
-    """Give the contact with as many points as resolve the waves: all pixels of a tile."""
+    """Return the rough contact on enough points to resolve the waves: all pixels of a tile."""
     of = model.contact, model.operating, model.lubricant
     if len(waves) > 1:
         return RoughContact.on_grid(*of, waves, GRID_POINTS)
@@ -416,7 +417,7 @@ def _contact(model: Model, waves: list[Component]) -> RoughContact:
 
 
 def _position(model: Model, waves: list[Component], time: float) -> tuple[float, float]:
-    """Give the position of the surfaces at a time [a/u]."""
+    """Return the position of the surfaces at a time [a/u]."""
     ways = [one.velocity_ratio * time for one in model.in_order]
     if len(waves) > 1:
         return ways[0], ways[1]
@@ -424,7 +425,7 @@ def _position(model: Model, waves: list[Component], time: float) -> tuple[float,
 
 
 def _with_margin(axis: Array) -> Array:
-    """Give the points with others around them, at the same distance."""
+    """Extend an axis on both sides by `MARGIN`, with the same spacing."""
     step = float(axis[1] - axis[0])
     more = int(np.ceil(MARGIN * float(axis[-1]) / step))
     before = axis[0] - step * np.arange(more, 0, -1)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stress below the surface under a result: one depth after the other, over all instants.
+"""Stress below the surface under a result, depth by depth, over all instants.
 
-The depths follow from the waves of a distribution of pressure; near the surface roughness
-determines the stress.
+The depths follow from the Fourier spectrum of the pressure: near the surface the stress of short
+waves of roughness dominates.
 """
 
 from __future__ import annotations
@@ -26,18 +26,18 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 
-# Depth over depth of the row, and the deepest over the short side of the loaded area
-RATIO, DEEPEST = 1.3, 3.0
-# Share of the pressure, as a root mean square over the loaded area, whose waves are not resolved
+# Ratio of successive depths; greatest depth over the shorter semi-axis of the contact
+RATIO, MAX_DEPTH = 1.3, 3.0
+# Relative rms of the pressure in waves too short to be resolved
 UNRESOLVED = 0.003
-# First depth over the one 1/k at which the shear of the shortest wave is largest
+# First depth over 1/k of the shortest wave, where its shear is largest
 FIRST = 0.4
 
 
 def shortest_wavenumber_depth(pressure: Array, mesh: tuple[float, float]) -> float:
-    """1/k of the shortest wave that counts, in the unit of the mesh sizes.
+    """Return 1/k of the shortest wave that is resolved, in the unit of the mesh sizes.
 
-    Waves are left out from the short end on until their pressure is `UNRESOLVED` of the whole.
+    The shortest waves are omitted as long as their rms pressure stays below `UNRESOLVED`.
     """
     power = np.square(np.abs(scipy.fft.rfft2(pressure)))
     kx = 2.0 * np.pi * scipy.fft.fftfreq(pressure.shape[0], mesh[0])[:, None]
@@ -52,24 +52,24 @@ def shortest_wavenumber_depth(pressure: Array, mesh: tuple[float, float]) -> flo
 def depths(pressure: Array, mesh: tuple[float, float], short_side: float) -> Array:
     """Depths (n,) from the surface down, the first one 0, in the unit of the mesh sizes.
 
-    The shear of a wave k is largest at the depth 1/k. The row begins above that of the shortest
-    wave that the pressure (nx, ny) has, and grows by `RATIO` to `DEEPEST` times the half width
-    `short_side` of the contact.
+    The shear of a wave k is largest at the depth 1/k. The depths begin above that of the shortest
+    resolved wave of the pressure (nx, ny), and increase by `RATIO` up to `MAX_DEPTH` times the
+    shorter semi-axis `short_side` of the contact.
     """
     first = FIRST * min(shortest_wavenumber_depth(pressure, mesh), 0.5 * short_side)
-    last = DEEPEST * short_side
+    last = MAX_DEPTH * short_side
     number = math.ceil(math.log(last / first) / math.log(RATIO)) + 1
     return np.concatenate([[0.0], np.geomspace(first, last, number)])
 
 
-# Distance from the centre within which the largest shear is reported apart [semi-axes]: further out
-# the edge of the contact and the pressure spike count, which the roughness moves to and fro
+# Distance from the centre within which the largest shear is also reported [semi-axes]: further out
+# it depends on the edge of the contact and the pressure spike, which the roughness displaces
 INNER = 0.6
 
 
 @dataclass(slots=True)
 class Peak:
-    """A largest value with its place: x, y [a] and time [a/u]."""
+    """A maximum with its position x, y [a] and time [a/u]."""
 
     value: float = -math.inf
     x: float = math.nan
@@ -77,7 +77,7 @@ class Peak:
     time: float = math.nan
 
     def take(self, values: Array, loads: Loads, time: float) -> bool:
-        """Take over the largest of values (nx, ny); return whether it is larger."""
+        """Update the maximum by values (nx, ny); return whether it increased."""
         i, j = np.unravel_index(int(values.argmax()), values.shape)
         if not values[i, j] > self.value:
             return False
@@ -92,15 +92,15 @@ class Row:
 
     depth: float  # [a]
     shear: Peak = field(default_factory=Peak)
-    inner: Peak = field(default_factory=Peak)  # shear within `INNER`, and outside of it
-    outer: Peak = field(default_factory=Peak)
+    inner: Peak = field(default_factory=Peak)  # shear within `INNER`
+    outer: Peak = field(default_factory=Peak)  # shear outside it
     mises: Peak = field(default_factory=Peak)
     tension: float = -math.inf  # largest hydrostatic stress
-    above: float = 0.0  # share of the dry contact where the shear exceeds a value
+    above: float = 0.0  # fraction of the dry contact where the shear exceeds a value
     section: Array | None = None  # principal shear on y = 0 (nx,), largest over time
-    cycle: Cycle | None = None  # of the material points; None where no whole passage is known
+    cycle: Cycle | None = None  # stress cycles; None if the run covers no complete passage
     fatigue: float = math.nan  # largest equivalent stress of the criterion
-    error: float = 0.0  # bound of the error by the periodic cell
+    error: float = 0.0  # bound on the error by the periodic cell
 
 
 def row_of(
@@ -111,7 +111,7 @@ def row_of(
     above: float | None,
     fatigue: Fatigue | None,
 ) -> Row:
-    """Give the row of a depth over some instants; `above` in p_h."""
+    """Return the row of a depth over some instants; `above` in p_h."""
     row, middle = Row(depth), int(np.abs(loads.y).argmin())
     exceeded = np.zeros((loads.x.size, loads.y.size), dtype=bool)
     inside, inner = loads.contact(), loads.contact(INNER)
@@ -142,7 +142,7 @@ def row_of(
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """Rows of the smooth contact, and of the rough one where there is one; stresses in p_h."""
+    """Rows of the smooth contact, and of the rough one if there is one; stresses in p_h."""
 
     smooth: list[Row]
     rough: list[Row]
@@ -150,7 +150,7 @@ class Profile:
 
     @property
     def rows(self) -> list[Row]:
-        """Rows of the rough contact, or of the smooth one where there is no other."""
+        """Rows of the rough contact, or of the smooth one if there is no rough one."""
         return self.rough or self.smooth
 
 
@@ -162,7 +162,7 @@ def profile(
     at: Array | None = None,
     progress: bool = False,
 ) -> Profile:
-    """Compute the stress at all depths, `at` some [a] or by the waves; `above` [p_h]."""
+    """Compute the stress at depths `at` [a], None: from the pressure; `above` in p_h."""
     is_rough = loads.times.size > 0
     first = next(loads.rough(), loads.smooth)
     half_space = HalfSpace(
@@ -186,7 +186,7 @@ def profile(
         all_depths = all_depths[1:]
     for depth in tqdm(all_depths, desc="stress", delay=2.0, leave=False, disable=not progress):
         add(float(depth))
-    # the rows are far apart: one more where the parabolas have their tops
+    # the rows are far apart: add one at the vertex of each parabola
     known = {row.depth for row in smooth}
     for depth in sorted({largest(rows)[1] for rows in (smooth, rough) if rows} - known):
         add(depth)
@@ -203,13 +203,13 @@ def profile(
 
 
 def largest(rows: list[Row], name: str = "shear") -> tuple[float, float, Peak]:
-    """Give the largest value of a peak, its depth, and the peak of the row nearest to it.
+    """Return the largest value of a peak, its depth, and the peak of the nearest row.
 
-    Below the surface by the parabola through three depths, in the logarithm of the depth.
+    Below the surface it is the vertex of a parabola through three depths, over log depth.
     """
     peaks: list[Peak] = [getattr(row, name) for row in rows]
     k = int(np.argmax([peak.value for peak in peaks]))
-    # the surface has no logarithm
+    # depth 0 has no logarithm
     if k == 0 or not rows[k - 1].depth > 0.0 or k == len(rows) - 1:
         return peaks[k].value, rows[k].depth, peaks[k]
     z = np.log([row.depth for row in rows[k - 1 : k + 2]])
@@ -219,26 +219,26 @@ def largest(rows: list[Row], name: str = "shear") -> tuple[float, float, Peak]:
 
 
 def in_layer(rows: list[Row], name: str, depth: float) -> float:
-    """Largest value of a peak down to a depth [a], which lies within the rows."""
+    """Return the largest value of a peak down to a depth [a] within the range of the rows."""
     z = np.array([row.depth for row in rows])
     values = np.array([getattr(row, name).value for row in rows])
     return float(np.append(values[z < depth], np.interp(depth, z, values)).max())
 
 
 def share_above(rows: list[Row], depth: float) -> float:
-    """Share of the volume under the dry contact, down to a depth [a], above the given value."""
+    """Fraction of the volume under the dry contact, to a depth [a], where `above` is exceeded."""
     z = np.array([row.depth for row in rows])
-    share = np.array([row.above for row in rows])
+    fraction = np.array([row.above for row in rows])
     grid = np.union1d(z[z < depth], [depth])
-    return float(np.trapezoid(np.interp(grid, z, share), grid) / depth)
+    return float(np.trapezoid(np.interp(grid, z, fraction), grid) / depth)
 
 
-# Depth down to which the layer reaches, over that of the largest smooth shear
+# Depth of the near-surface layer over that of the largest smooth shear
 NEAR = 0.25
 CHANGE_INNER, CHANGE_OUTER = INCREASE_ERROR, 1.0
-"""Error of a predicted change of the near-surface shear by the roughness, over that change: within
-`INNER` that of the maximum increase of pressure; outside, where the roughness moves the edge of the
-contact and the linear response does not, all of it (docs/evidence/subsurface)."""
+"""Relative error of the predicted change of the near-surface shear by the roughness: within `INNER`
+that of the maximum pressure increase; outside 1, because the roughness displaces the edge of the
+contact but the linear response does not (docs/evidence/subsurface)."""
 
 Scalar = tuple[str, float, str, str]
 
@@ -246,18 +246,18 @@ Scalar = tuple[str, float, str, str]
 def near_surface(
     result: Profile, depth: float | None, above: float | None, *, predicted: bool
 ) -> list[Scalar]:
-    """Largest shear in the layer, and the share of its volume above a given one.
+    """Return the largest shear in the layer, and the fraction of its volume above a given shear.
 
     Parameters
     ----------
     result
         Stress over depth [p_h].
     depth
-        Of the layer [a]; None: `NEAR` times the depth of the largest smooth shear.
+        Depth of the layer [a]; None: `NEAR` times the depth of the largest smooth shear.
     above
-        Whether a shear was given, of which `Row.above` is the share.
+        Shear [Pa] to which `Row.above` refers; None: not given.
     predicted
-        Whether the rough contact is predicted: then with errors.
+        Whether the rough contact is predicted, so that errors are added.
 
     Returns
     -------
@@ -293,14 +293,14 @@ def near_surface(
 
 
 def _errors(result: Profile, depth: float) -> tuple[float, float]:
-    """Errors of the predicted shear in the layer [p_h]: of the largest one, and within `INNER`."""
+    """Errors of the largest predicted shear in the layer [p_h]: anywhere, and within `INNER`."""
     reached = {}
-    for name, share in (("inner", CHANGE_INNER), ("outer", CHANGE_OUTER)):
+    for name, relative in (("inner", CHANGE_INNER), ("outer", CHANGE_OUTER)):
         pairs = zip(result.rough, result.smooth, strict=True)
         peaks = [(r.depth, getattr(r, name).value, getattr(s, name).value) for r, s in pairs]
         rows = [Row(z) for z, *_ in peaks]
         for row, (_, rough, smooth) in zip(rows, peaks, strict=True):
-            row.shear.value = rough + share * abs(rough - smooth)
+            row.shear.value = rough + relative * abs(rough - smooth)
         reached[name] = in_layer(rows, "shear", depth)
     inner, outer = (in_layer(result.rough, name, depth) for name in ("inner", "outer"))
     error = reached["inner"] - inner

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl.stress``: stress below the surface as a labelled Dataset, as a folder, in a few lines."""
+"""``pyehl.stress``: stress below the surface as a labelled Dataset, as a folder, and as text."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ NOTES = "surface_note", "cycle_note"
 
 
 def text(data: xr.Dataset) -> str:
-    """Lines that ``pyehl stress`` prints."""
+    """Return the lines that ``pyehl stress`` prints."""
     return "\n".join(f"{name:10} {words}" for name, words in facts(data))
 
 
 def facts(data: xr.Dataset) -> list[tuple[str, str]]:
-    """Name and words of each result."""
+    """Return name and text of each result."""
     si = "principal_shear_max_Pa" in data
     unit, length = ("MPa", "um") if si else ("p_h", "a")
 
@@ -105,8 +105,8 @@ def facts(data: xr.Dataset) -> list[tuple[str, str]]:
     return result
 
 
-# Fewest depths of a profile
-FEWEST = 4
+# Minimum number of depths of a profile
+MIN_DEPTHS = 4
 STEEP = "not at depth 0: the traction ends in a step, where the stress at the surface is not finite"
 FILES = ("case.nml", "summary.json", "stress.nc", "section.png", "depth.png")
 
@@ -131,31 +131,31 @@ def stress(
 ) -> xr.Dataset:
     """Compute the stress below the surface of a solid under a result.
 
-    Of a smooth contact the steady stress; of a rough one the largest over the frames of its run, or
-    at its end if it kept none (``output.frame_interval``), beside the smooth contact.
+    For a smooth contact the steady stress; for a rough one also the largest over the frames of its
+    run, or that at its end if it has no frames (``output.frame_interval``).
 
     Parameters
     ----------
     results
-        What `solve`, `predict` or `load` gives, or a result folder of a solution.
+        What `solve`, `predict` or `load` returns, or a result folder of a solution.
     body
         1 or 2; default: the one with the surface of the case.
     friction
-        'run': shear traction by the shear law of the oil, in sum the friction of the result; none
-        where it states no coefficient. 'none'. Or a coefficient of friction, traction over
-        pressure.
+        'run': shear traction by the shear law of the oil, scaled to the friction of the result;
+        none if that has no coefficient. 'none': no friction. Or a coefficient of friction, traction
+        over pressure.
     above
-        Principal shear stress [Pa] for the share of the near-surface volume that exceeds it.
+        Principal shear stress [Pa] for the fraction of the near-surface volume that exceeds it.
     near
         Depth of the near-surface volume under the dry contact [m]; default: a quarter of the depth
         of the largest shear of the smooth contact.
     depths
-        Depths of the profile [m], ascending, four or more; None: by the waves of the pressure.
+        Depths of the profile [m], ascending, four or more; None: from the waves of the pressure.
     fatigue
         'dang-van' or 'crossland', with `torsion_limit` and `bending_limit`, the fatigue limits of
         the material in fully reversed torsion and bending [Pa].
     contamination
-        e_C C_u/P [-] for a_ISO of a `bearing`, 'ball' or 'roller' (ISO 281), by the Lambda of the
+        e_C C_u/P [-] for a_ISO of a `bearing`, 'ball' or 'roller' (ISO 281), with the Lambda of the
         rough contact.
     output
         Result folder; None: nothing is kept on disk.
@@ -168,16 +168,16 @@ def stress(
     -------
     xarray.Dataset
         Over depth (Z [a], z_m [m]): ``principal_shear``, ``von_mises``, ``octahedral_shear``,
-        ``hydrostatic``, each the largest over x, y and time [p_h], with ``..._Pa``; the same of
+        ``hydrostatic``, each the largest over x, y and time [p_h], with ``..._Pa``; the same for
         the smooth contact with ``_smooth``. On y = 0 over x and depth: ``sigma_xx`` to ``sigma_yz``
         [p_h], tension positive, z into the solid, at the instant of the largest shear, and
         ``section_shear``, the principal shear, largest over time. Scalars: ``principal_shear_max``
-        with depth, x, y, time and error. Names with _Pa, _m and _s are there if the case is in SI.
+        with depth, x, y, time and error. Names with _Pa, _m and _s exist if the case is in SI.
 
     Raises
     ------
     InputError
-        If `results` is no solution with fields, or an option cannot be.
+        If `results` is no solution with fields, or an option is invalid.
 
     Examples
     --------
@@ -222,7 +222,7 @@ def stress(
     for name, value, unit, meaning in scalars:
         _add(data, loads, name, value, unit, meaning)
     if "near_surface_shear_error" in data:
-        # the layer may hold the largest shear, where its error is taken in
+        # the largest shear may lie in the layer: include the error there
         highest = float(data.near_surface_shear + data.near_surface_shear_error)
         name, words = "principal_shear_max_error", "; near-surface layer of a prediction"
         error = max(float(data[name]), highest - float(data.principal_shear_max))
@@ -232,7 +232,8 @@ def stress(
         equivalent = max(row.fatigue for row in rows) * p_h
         data["fatigue_stress_Pa"] = _scalar(equivalent, "Pa", f"{fatigue}, equivalent stress")
         ratio = equivalent / criterion.torsion_limit
-        data["fatigue_ratio"] = _scalar(ratio, "1", "it over the fatigue limit in torsion")
+        meaning = "equivalent stress over the fatigue limit in torsion"
+        data["fatigue_ratio"] = _scalar(ratio, "1", meaning)
     _add_life(data, summary, contamination, bearing)
     data.attrs |= {
         "kind": "stress",
@@ -255,13 +256,13 @@ def stress(
 
 
 def _check_depths(given: Sequence[float] | None) -> None:
-    """InputError if depths do not ascend from 0 on, or are too few."""
+    """Raise InputError if depths are negative, not ascending, or too few."""
     if given is None:
         return
     result = np.array(given, dtype=float)
-    right = result.ndim == 1 and result.size >= FEWEST and np.isfinite(result).all()
+    right = result.ndim == 1 and result.size >= MIN_DEPTHS and np.isfinite(result).all()
     if not right or result[0] < 0.0 or (np.diff(result) <= 0.0).any():
-        raise InputError(f"depths = {given!r}: expected {FEWEST} or more ascending depths [m]")
+        raise InputError(f"depths = {given!r}: expected {MIN_DEPTHS} or more ascending depths [m]")
 
 
 def _criterion(name: str | None, torsion: float | None, bending: float | None) -> Fatigue | None:
@@ -304,7 +305,7 @@ def _scalar(value: float, unit: str, meaning: str) -> xr.Variable:
 
 
 def _add(data: xr.Dataset, loads: Loads, name: str, value: float, unit: str, meaning: str) -> None:
-    """Add a scalar in Hertz units, and in a unit of SI, '1' for none, where the case has them."""
+    """Add a scalar in Hertz units and, if the case has SI values, in an SI unit; '1' for none."""
     data[name] = _scalar(value, "1", meaning)
     if loads.operating.si and unit != "1":
         scales = {"Pa": "hertz_pressure", "m": "hertz_radius", "s": "time_scale"}
@@ -313,7 +314,7 @@ def _add(data: xr.Dataset, loads: Loads, name: str, value: float, unit: str, mea
 
 
 def _dataset(loads: Loads, result: Profile) -> xr.Dataset:
-    """Profiles, section and peaks, in Hertz units and in SI units."""
+    """Return profiles, section and peaks in Hertz units and in SI units."""
     point = loads.operating
     p_h, a = point.hertz_pressure, point.hertz_radius
     z = np.array([row.depth for row in result.rows])
@@ -387,7 +388,7 @@ def _add_peak(
 def _add_life(
     data: xr.Dataset, summary: xr.Dataset, contamination: float | None, bearing: str
 ) -> None:
-    """Add kappa and a_ISO by Lambda; InputError if a_ISO is requested without one."""
+    """Add kappa and a_ISO from Lambda; InputError if a_ISO is requested without Lambda."""
     ratio = float(summary["lambda_ratio"]) if "lambda_ratio" in summary else math.nan
     if not math.isfinite(ratio):
         if contamination is not None:
@@ -415,7 +416,7 @@ def _write(data: xr.Dataset, place: Destination) -> None:
 
 
 def summary_of(data: xr.Dataset, folder: Path) -> dict[str, Any]:
-    """Give attributes and scalars, for summary.json."""
+    """Return attributes and scalars, for summary.json."""
     scalars = {str(k): float(v) for k, v in data.data_vars.items() if v.ndim == 0}
     known = {k: v for k, v in scalars.items() if math.isfinite(v)}
     files = sorted(["summary.json", *(path.name for path in folder.iterdir())])

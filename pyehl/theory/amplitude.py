@@ -7,17 +7,17 @@ x = f(r) (wavelength/a) sqrt(M/L) the deformed amplitude is A_d/A_i = 1/(1 + 0.1
 where r = wavelength_x/wavelength_y and f = exp(1 - 1/r) for r > 1, else 1. Pure rolling.
 
 The formula was fitted to cos(2 pi x/wavelength_x) cos(2 pi y/wavelength_y) patterns. A Fourier
-component of a rough surface is a plane wave, to which a wavelength is given in one of three ways:
+component of a rough surface is a plane wave; its wavelength is defined in one of three ways:
 
 ``components`` (default)
     wavelength_x = 2 pi/|q_x| and wavelength_y = 2 pi/|q_y|: the shorter one, with f(r). A cos cos
     pattern is the sum of the plane waves (+-q_x, +-q_y), which deform alike because the contact is
-    symmetric in y, so in the linear theory this is the formula itself for every component. It
-    depends on the direction of the wave, as the rolling contact does. Of the three it is nearest
-    to the full simulation of ten rough surfaces, though not by much, see :mod:`pyehl.prediction`.
+    symmetric in y, so in the linear theory the formula holds for every component. It depends on
+    the direction of the wave, as the rolling contact does. For ten rough surfaces it is slightly
+    nearer to the full simulation than the other two, see :mod:`pyehl.prediction`.
 ``wavevector``
-    2 pi/|q|, the distance between its crests, f = 1. Agrees with the formula for waves with
-    crests across the rolling direction.
+    2 pi/|q|, the distance between crests, f = 1. Agrees with the formula for waves with crests
+    across the rolling direction.
 ``pattern``
     2 sqrt(2) pi/|q|, the wavelength of the isotropic cos cos pattern that has this |q|, f = 1.
     Agrees with the formula for such patterns.
@@ -32,7 +32,7 @@ from pyehl.errors import InputError
 from pyehl.types import Array
 
 CONVENTIONS = ("components", "wavevector", "pattern")
-"""Names of the ways to give a Fourier component a wavelength, the default first."""
+"""Definitions of the wavelength of a Fourier component, the default first."""
 
 
 def anisotropy_factor(ratio: ArrayLike) -> Array:
@@ -48,7 +48,7 @@ def wavelength_parameter(
     """Wavelength parameter x = f(r) (wavelength/a) sqrt(M/L) [-], nabla_2 in the literature.
 
     `wavelength` is the shorter of the two over the Hertz radius a, `ratio` r = wavelength_x over
-    wavelength_y. InputError if M or L is not positive: the theory is one of piezoviscous contacts.
+    wavelength_y. InputError if M or L is not positive: the theory is for piezoviscous contacts.
     """
     if not (moes_m > 0.0 and moes_l > 0.0):
         raise InputError(
@@ -96,7 +96,8 @@ def component_amplitude_ratio(
 ) -> Array:
     """A_d/A_i in [0, 1] of the Fourier components of a point contact, 0 at q = 0.
 
-    Wavenumbers qx, qy [rad/m] are broadcast together; a in m; one of :data:`CONVENTIONS`.
+    Wavenumbers qx, qy [rad/m] are broadcast together; `hertz_radius` in m; `convention` is one of
+    :data:`CONVENTIONS`.
     """
     wavelength, ratio = component_wavelength(qx, qy, convention)
     return amplitude_ratio(wavelength_parameter(wavelength / hertz_radius, moes_m, moes_l, ratio))

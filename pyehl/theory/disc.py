@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pressure of a wave of roughness on the Hertz disc, in closed form.
 
-A half-space resists a periodic wave of flattening exp(i q x) with the pressure E'|q|/4. A contact
-is a disc, whose edge affects a wave as long as its radius: the pressure inside the disc differs
-from that of the periodic wave because there is none outside, and the load that a wave carries is
-balanced by the approach of the bodies.
+A half-space resists a periodic wave of flattening exp(i q x) with the pressure E'|q|/4. The contact
+is a disc, and its edge affects waves as long as its radius: the pressure inside differs from that
+of the periodic wave because there is none outside, and the approach of the bodies balances the load
+that a wave carries.
 
 On the unit disc, with z = sqrt(1 - r^2), a pressure Y_lm/z with l - m even deflects the disc into
 Y_lm (Copson 1947; Boersma & Danicki 1993), Y_lm(r, theta) = P_lm(z) cos(m theta). These are
 spherical harmonics on the hemisphere over the disc, so the expansion of a plane wave with a
-wavevector in the plane is the well-known one, with spherical Bessel functions; l = 0 alone
-carries load and is left out. All lengths are scaled by the Hertz radius a, heights by a^2/R,
-pressures by p_h.
+wavevector in the plane is the well-known one, with spherical Bessel functions. Only l = 0 carries
+load; it is omitted. Lengths are scaled by the Hertz radius a, heights by a^2/R, pressures by p_h.
 """
 
 import math
@@ -24,17 +23,17 @@ from numpy.polynomial import legendre
 from pyehl.types import Array, Complex
 
 DEGREE = 6
-"""Degree of the polynomials in x, y of the correction."""
+"""Degree of the polynomials in x, y that represent the correction."""
 MAX_WAVENUMBER = 14.0
-"""Largest wavenumber |q| that needs it [1/a]: the edge does not affect waves below 0.45 a."""
+"""Largest |q| that is corrected [1/a]: the edge does not affect wavelengths below 0.45 a."""
 RADIUS = 0.8
-"""Radius within which they are fitted; most of the friction arises there. Nearer to the edge
-the pressure of a disc with a fixed edge is singular and that of a contact is not."""
+"""Radius [a] of the fit; most of the friction arises within it. Nearer to the edge the pressure of
+a disc with a fixed edge is singular; that of a contact is not."""
 
 NEXT_TO_EDGE = 1e-5
 """z at which the pressure next to the edge is taken."""
 EDGE_ANGLES = np.linspace(0.0, 2.0 * math.pi, 96, endpoint=False)
-"""Places along the edge at which its displacement is computed."""
+"""Angles at which the displacement of the edge is computed."""
 
 
 def monomials(x: Array, y: Array, axis: int = -1) -> Array:
@@ -51,8 +50,8 @@ def monomials(x: Array, y: Array, axis: int = -1) -> Array:
 
 
 def _radial(z: Array, last: int) -> list[tuple[range, Array]]:
-    """For each m up to `last` the l that go with it, and P_lm(z)/z for them with all factors."""
-    # the last place is the edge, where the weights take P_lm
+    """Return, for each m up to `last`, its degrees l and P_lm(z)/z times the factor of each."""
+    # the last point is the edge, where the weights take P_lm
     values = _legendre(last, np.append(z, 0.0))
     result = []
     for m in range(last + 1):
@@ -100,17 +99,17 @@ def spherical_bessel(count: int, q: Array) -> Array:
 
 
 def _weight(n: int, m: int, at_edge: float) -> float:
-    """Pressure per deflection of Y_nm, times its share in a plane wave; with P_nm(0)."""
+    """Pressure per deflection of Y_nm times its coefficient in a plane wave; `at_edge` P_nm(0)."""
     inverse = math.lgamma((n + m + 2) / 2) + math.lgamma((n - m + 2) / 2)
     inverse -= math.lgamma((n + m + 1) / 2) + math.lgamma((n - m + 1) / 2)
-    share = math.exp(inverse + math.lgamma(n - m + 1) - math.lgamma(n + m + 1))
-    share *= at_edge
-    return share * (2.0 if m else 1.0) * math.pi / 2.0
+    weight = math.exp(inverse + math.lgamma(n - m + 1) - math.lgamma(n + m + 1))
+    weight *= at_edge
+    return weight * (2.0 if m else 1.0) * math.pi / 2.0
 
 
 @lru_cache(maxsize=1)
 def _fit() -> tuple[Array, Array, list[tuple[range, Array]], Array]:
-    """Places of a fit within RADIUS, their radial parts, and the matrix of least squares."""
+    """Points x, y of the fit within RADIUS, their radial functions, and the pseudo-inverse."""
     line = np.linspace(-RADIUS, RADIUS, 13)
     x, y = (values.ravel() for values in np.meshgrid(line, line, indexing="ij"))
     inside = np.hypot(x, y) <= RADIUS
@@ -121,15 +120,15 @@ def _fit() -> tuple[Array, Array, list[tuple[range, Array]], Array]:
 
 @lru_cache(maxsize=1)
 def _next_to_edge() -> list[tuple[range, Array]]:
-    """Radial parts next to the edge."""
+    """Radial functions next to the edge."""
     return _radial(np.array([NEXT_TO_EDGE]), math.ceil(MAX_WAVENUMBER) + 12)
 
 
 def disc_correction(qx: Array, qy: Array) -> Complex:
-    """Return the pressure of a wave on the disc less that of the periodic wave, pi/4 |q|.
+    """Return the pressure of a wave on the disc minus that of the periodic wave, pi/4 |q|.
 
-    Wavenumbers (m,) [1/a]; (28, m) coefficients of :func:`monomials` [p_h per a^2/R], to 1.5
-    % of the pressure of the wave within 0.75 of the radius, for |q| up to MAX_WAVENUMBER.
+    Wavenumbers (m,) [1/a]; coefficients (28, m) of :func:`monomials` [p_h per a^2/R], accurate to
+    1.5 % of the pressure of the wave within 0.75 a, for |q| up to MAX_WAVENUMBER.
     """
     x, y, radial, inverse = _fit()
     local = 0.25 * math.pi * np.hypot(qx, qy) * np.exp(1j * (np.outer(x, qx) + np.outer(y, qy)))
@@ -137,9 +136,9 @@ def disc_correction(qx: Array, qy: Array) -> Complex:
 
 
 def edge_of_disc(qx: Array, qy: Array) -> Complex:
-    """How far waves (m,) [1/a] move the edge of the disc outwards at EDGE_ANGLES: (n, m) [a].
+    """Outward displacement of the edge by waves (m,) [1/a] at EDGE_ANGLES: (n, m) [a].
 
-    The pressure c/z of the fixed edge is what the Hertz pressure z gains where the edge lies
-    further out by c.
+    A pressure c/z next to the fixed edge is the change of the Hertz pressure z when the edge moves
+    outward by c.
     """
     return NEXT_TO_EDGE * _series(qx, qy, EDGE_ANGLES, _next_to_edge())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Hertz ellipse of a ratio of radii."""
+"""Hertz contact ellipse from the ratio of the radii of curvature."""
 
 import math
 from dataclasses import dataclass
@@ -28,22 +28,22 @@ class Ellipse:
 
     @property
     def is_line(self) -> bool:
-        """Whether it is that of an infinite line."""
+        """Whether the contact is an infinite line."""
         return math.isinf(self.ellipticity)
 
     @property
     def side(self) -> float:
-        """Length across the motion that counts as one contact [a]: the semi-axis, of a line 1."""
+        """Unit of length across the motion [a]: the semi-axis, for a line 1."""
         return 1.0 if self.is_line else self.ellipticity
 
     @property
-    def load_share(self) -> float:
-        """Product kappa k_b over that of a circle [-]: a^3 = 3 w R_x/(2 E' load_share)."""
+    def load_factor(self) -> float:
+        """Product kappa k_b over that of a circle [-]: a^3 = 3 w R_x/(2 E' load_factor)."""
         return self.ellipticity * self.kernel_ratio
 
     @property
     def potential(self) -> float:
-        """Integral of P/r in the centre over that of a circle of radius a [-], P a semi-ellipse."""
+        """Integral of P/r about the centre over that for a circle of radius a [-], P Hertzian."""
         if self.radius_ratio in (0.0, 1.0):
             return 1.0 if self.radius_ratio else math.inf
         from scipy.special import elliprf  # noqa: PLC0415 (as below)
@@ -53,7 +53,7 @@ class Ellipse:
 
 
 LINE = Ellipse(0.0, math.inf, 0.25 * math.pi)
-"""The dry contact of an infinite line, which has no semi-axis across the motion."""
+"""Dry contact of an infinite line: its semi-axis across the motion is infinite."""
 
 
 @lru_cache(maxsize=64)
@@ -84,7 +84,7 @@ def ellipse(radius_ratio: float) -> Ellipse:
         square = math.exp(2.0 * log_kappa)
         return math.log(elliprd(0.0, 1.0, square) / elliprd(0.0, square, 1.0) / ratio)
 
-    # kappa is D^(-2/3) within a factor of 4 as far as the keys of a case go, and further
+    # kappa is within a factor of 4 of D^(-2/3) for all ratios that a case allows
     middle = -2.0 / 3.0 * math.log(ratio)
     kappa = math.exp(brentq(miss, middle - math.log(4.0), middle + math.log(4.0), xtol=1e-15))
     factor = 1.5 / (math.pi * kappa * float(elliprd(0.0, kappa**2, 1.0)))

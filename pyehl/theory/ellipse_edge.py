@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pressure of a wave of roughness on a Hertz ellipse: the disc of :mod:`pyehl.theory.disc`.
+"""Pressure of a wave of roughness on a Hertz ellipse, as :mod:`pyehl.theory.disc` on a circle.
 
-With x and y by the semi-axes, a pressure sum over m of a_m P_lm(z) cos(m theta)/z of one degree l
+With x and y over the semi-axes, a pressure sum over m of a_m P_lm(z) cos(m theta)/z of one degree l
 deflects the ellipse into functions of the same degree (Galin 1953; Johnson 1985, Contact Mechanics,
 section 3.3). In Fourier space the ellipse is the disc with a kernel g(phi)/Q, 1/g^2 = cos^2 phi +
-sin^2 phi/kappa^2, and the integrals of j_l j_l' over Q vanish but for l = l', so that for each l
-there is one small set of equations, with the harmonics of g. The wavevector enters as Q = (q_x,
-kappa q_Y). Lengths by a, heights by a^2/R_x, pressures by p_h.
+sin^2 phi/kappa^2. The integrals of j_l j_l' over Q vanish unless l = l', so each l has a small
+system of equations of its own, with the harmonics of g. The wavevector enters as Q = (q_x,
+kappa q_Y). Lengths are scaled by a, heights by a^2/R_x, pressures by p_h.
 """
 
 import math
@@ -26,7 +26,7 @@ from pyehl.theory.disc import (
 from pyehl.theory.ellipse import Ellipse
 from pyehl.types import Array, Complex
 
-# Places along the short axis at which the polynomials are fitted, and angles of the integrals
+# Points along the short axis at which the polynomials are fitted, and angles of the integrals
 PLACES = 13
 ANGLES = 4096
 
@@ -34,8 +34,8 @@ ANGLES = 4096
 class EllipseEdge:
     """Effect of the edge of an ellipse on the pressure of long waves, as polynomials.
 
-    Products of Chebyshev polynomials of x/a and y/b. Their degree along the short axis is that of
-    the disc, along the long one as much higher as the axis is longer.
+    Products of Chebyshev polynomials in x/a and y/b. Their degree along the short axis is that of
+    the disc; along the long axis it is higher in proportion to the length.
     """
 
     def __init__(self, shape: Ellipse) -> None:
@@ -55,7 +55,7 @@ class EllipseEdge:
         inside = np.hypot(x, y) <= RADIUS
         self.x, self.y = x, y = x[inside], y[inside]
         self._inverse = np.asarray(np.linalg.pinv(self.functions(x, y).T), dtype=float)
-        # by the semi-axes
+        # over the semi-axes
         largest = self.largest * max(1.0, kappa)
         self._inside = Series(shape, x, y, largest, self._inverse)
         radius = math.sqrt(1.0 - NEXT_TO_EDGE * NEXT_TO_EDGE)
@@ -63,7 +63,7 @@ class EllipseEdge:
         self._at_edge = Series(shape, x, y, largest)
 
     def functions(self, x: Array, y: Array) -> Array:
-        """Polynomials (n, ...) at places by the semi-axes, x/a and y/b, within RADIUS."""
+        """Polynomials (n, ...) at points x/a and y/b within RADIUS."""
         i, j = self._powers
         along, across = (
             np.moveaxis(chebyshev.chebvander(values / RADIUS, int(powers.max())), -1, 0)
@@ -72,7 +72,7 @@ class EllipseEdge:
         return np.asarray(along[i] * across[j])
 
     def correction(self, qx: Array, qy: Array) -> Complex:
-        """Return the pressure of waves (m,) [1/a] on the ellipse less that on the half-space.
+        """Return the pressure of waves (m,) [1/a] on the ellipse minus that on the half-space.
 
         Coefficients (n, m) of `functions` [p_h per a^2/R_x].
         """
@@ -82,24 +82,24 @@ class EllipseEdge:
         return np.asarray(self._inside.of(qx, qy) - self._inverse @ (local * np.exp(1j * phase)))
 
     def displacement(self, qx: Array, qy: Array) -> Complex:
-        """How far waves (m,) move the edge outwards, :func:`pyehl.theory.disc.edge_of_disc`.
+        """Outward displacement of the edge by waves (m,), :func:`pyehl.theory.disc.edge_of_disc`.
 
-        Of the distance from the centre by the semi-axes, at EDGE_ANGLES of x/a and y/b: (n, m).
+        As a fraction of the distance from the centre, at EDGE_ANGLES of (x/a, y/b): (n, m).
         """
         return NEXT_TO_EDGE * self._at_edge.of(qx, qy)
 
 
 @lru_cache(maxsize=4)
 def ellipse_edge(shape: Ellipse) -> EllipseEdge:
-    """Return the polynomials of an ellipse; the last few are kept."""
+    """Return the edge effect of an ellipse; the last few are cached."""
     return EllipseEdge(shape)
 
 
 class Series:
-    """Pressure at places, or a linear function of it, as a sum over the waves of the roughness.
+    """Pressure at points, or a linear function of it, as a sum over the waves of the roughness.
 
-    `part` (k, n) of the pressure at places (n,) by the semi-axes, None for all of it. For |q| up to
-    a largest one [1/a], q by the semi-axes.
+    `part` (k, n) is the matrix of that function of the pressure at points (n,), None for the
+    pressure itself; points and q are over the semi-axes, |q| up to `largest`.
     """
 
     def __init__(
@@ -127,7 +127,7 @@ class Series:
                     self._terms.append((n, m, wave, np.linalg.solve(matrix, there.T).T))
 
     def of(self, qx: Array, qy: Array) -> Complex:
-        """Of waves exp(i q r) [a^2/R_x] with wavevectors (m,) [1/a]: (k, m) [p_h]."""
+        """Return it for waves exp(i q r) [a^2/R_x], wavevectors (m,) [1/a]: (k, m) [p_h]."""
         kappa = self.shape.ellipticity
         q, phi = np.hypot(qx, kappa * qy), np.arctan2(kappa * qy, qx)
         last = min(self.last, math.ceil(float(q.max())) + 12)
@@ -150,9 +150,9 @@ def _harmonics(kappa: float, last: int) -> Array:
 
 
 def _legendre(last: int, z: Array) -> Array:
-    """Associated Legendre functions up to a degree at z (n,), orthonormal: (l, m, n)."""
+    """Orthonormal associated Legendre functions up to degree `last` at z (n,): (l, m, n)."""
     from scipy.special import assoc_legendre_p_all  # noqa: PLC0415 (takes as long to load as pyehl)
 
-    # at z = 1 itself they come without the norm (scipy 1.17)
+    # scipy 1.17 does not normalise them at z = 1
     result = assoc_legendre_p_all(last, last, np.minimum(z, np.nextafter(1.0, 0.0)), norm=True)
     return np.asarray(result[0, :, : last + 1])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Film thickness formulas."""
+"""Film thickness formulas of point contacts, with their ranges and accuracies."""
 
 import math
 from collections.abc import Mapping
@@ -30,17 +30,17 @@ HAMROCK_DOWSON_RANGE = {
     "G": (2.3e3, 6.8e3),
     "ellipticity": (1.0, 8.0),
 }
-# Conditions over which the other formulas were compared with converged solutions here
+# Conditions over which the other formulas were compared with converged solutions of the solver
 BREWE_RANGE = {"M": (0.0, 2.0), "R_x/R_y": (0.03, 1.0)}
 SOFT_RANGE = {"M": (8.0, 2000.0), "L": (0.0, 0.05)}
-# of de Vicente et al.; its exponents leave a factor U^-0.005 beside what M makes
+# U of de Vicente et al.; at fixed M their exponents leave a dependence U^-0.005
 DE_VICENTE_RANGE = {"U": (1e-12, 1e-7), **SOFT_RANGE}
-# its exponents do not make one curve over M, as they should: 2 and 6 % a decade of U; on longer
-# ellipses h_min is 10 to 15 % low
+# its exponents do not give one curve over M, as they should: h_c and h_min differ by 2 and 6 % per
+# decade of U; on longer ellipses h_min is 10 to 15 % low
 HAMROCK_DOWSON_SOFT_RANGE = {"U": (1e-9, 1e-7), **SOFT_RANGE, "R_x/R_y": (0.8, 1.0)}
-# Relative tolerance of a bound, for numbers computed from others
+# Relative tolerance of the bounds, for rounding
 ROUNDING = 1e-12
-# Conditions over which the asymptotic formula was compared with converged solutions here
+# Conditions over which the asymptotic formula was compared with converged solutions of the solver
 NIJENBANNING_RANGE = {"M": (20.0, 2000.0), "L": (5.0, 15.0), "R_x/R_y": (0.0, 1.0)}
 
 
@@ -51,9 +51,9 @@ class FilmEstimate:
     Attributes
     ----------
     name, source
-        The formula and where it is from.
+        The formula and its publication.
     regime
-        That the formula is for, as :func:`pyehl.theory.moes_film.regime` names it; '' for all.
+        Regime of the formula, as :func:`pyehl.theory.moes_film.regime` names it; '' for all.
     h_c, h_min
         Central and minimum film thickness [m]; NaN where the formula gives none.
     applies
@@ -63,7 +63,7 @@ class FilmEstimate:
     outside
         Conditions outside the range of the formula, in words; empty when inside.
     note
-        Its accuracy; empty for an ellipse, for which little is known.
+        Its accuracy; empty for an ellipse, for which it is hardly known.
     """
 
     name: str
@@ -83,7 +83,7 @@ def hamrock_dowson(
     """h_c/R_x and h_min/R_x [-], from U, G, W2 as `OperatingPoint` has them.
 
     Hamrock & Dowson 1977, J. Lubr. Technol. 99, 264-276; `ellipticity` is the semi-axis across the
-    motion over that along it, for which they have 1.03 (R_y/R_x)^0.64.
+    motion over that along it; they approximate it by 1.03 (R_y/R_x)^0.64.
     """
     side_c, side_min = math.exp(-0.73 * ellipticity), math.exp(-0.68 * ellipticity)
     h_c = 2.69 * speed**0.67 * material**0.53 * load_number**-0.067 * (1 - 0.61 * side_c)
@@ -101,7 +101,7 @@ def chittenden(speed: float, material: float, load_number: float) -> tuple[float
 
 
 def brewe(speed: float, load_number: float, radius_ratio: float = 1.0) -> float:
-    """h_c/R_x = h_min/R_x [-] of rigid bodies and a constant viscosity, from U and W2.
+    """h_c/R_x = h_min/R_x [-] of rigid bodies with constant viscosity, from U and W2.
 
     Brewe, Hamrock & Taylor 1979, J. Lubr. Technol. 101, 231-239; `radius_ratio` is R_x/R_y.
     """
@@ -114,11 +114,11 @@ def brewe(speed: float, load_number: float, radius_ratio: float = 1.0) -> float:
 def hamrock_dowson_soft(
     speed: float, load_number: float, ellipticity: float = 1.0
 ) -> tuple[float, float]:
-    """h_c/R_x and h_min/R_x [-] of soft bodies and a constant viscosity, from U and W2.
+    """h_c/R_x and h_min/R_x [-] of soft bodies with constant viscosity, from U and W2.
 
-    Hamrock & Dowson 1978, J. Lubr. Technol. 100, 236-245. h_min agrees with the form of regimes
-    in textbooks, 8.70 g_E^0.67 (1 - 0.85 exp(-0.31 k)) (U/W)^2, within 1.2 % at U = 1e-8. The
-    constants of h_c are quoted and checked nowhere else.
+    Hamrock & Dowson 1978, J. Lubr. Technol. 100, 236-245. h_min agrees with the regime formula of
+    textbooks, 8.70 g_E^0.67 (1 - 0.85 exp(-0.31 k)) (U/W)^2, within 1.2 % at U = 1e-8. The
+    constants of h_c are quoted from a secondary source and were not checked against another.
     """
     side_c, side_min = math.exp(-0.28 * ellipticity), math.exp(-0.31 * ellipticity)
     h_c = 7.32 * (1 - 0.72 * side_c) * speed**0.64 * load_number**-0.22
@@ -127,23 +127,23 @@ def hamrock_dowson_soft(
 
 
 def de_vicente(speed: float, load_number: float) -> float:
-    """h_c/R [-] of a circle, soft bodies and a constant viscosity, from U and W2.
+    """h_c/R [-] of a circular contact of soft bodies with constant viscosity, from U and W2.
 
-    de Vicente, Stokes & Spikes 2005, Tribol. Lett. 20, 273-286: quoted and checked nowhere else
-    but by converged solutions (docs/howto/soft.md).
+    de Vicente, Stokes & Spikes 2005, Tribol. Lett. 20, 273-286: quoted from a secondary source and
+    checked only against converged solutions (docs/howto/soft.md).
     """
     return 3.3 * speed**0.6 * load_number**-0.14
 
 
 def central_film(operating: OperatingPoint, lubricant: Lubricant) -> float:
-    """Central film thickness h_c [m]: Nijenbanning-Venner-Moes over rho(p_h)/rho0.
+    """Central film thickness h_c [m]: Nijenbanning-Venner-Moes divided by rho(p_h)/rho0.
 
     Within 0.8 % of converged solutions for 500 <= M <= 2000, 5 <= L <= 15; up to 4 % below those of
     flooded contacts for 20 <= M <= 200 (docs/evidence/validation).
     """
     h = nijenbanning_venner_moes(operating.moes_m, operating.moes_l, operating.ellipse)
     if not operating.si and operating.pressure_viscosity == 0.0:
-        # L = 0 without a size has no pressure that could compress
+        # L = 0 without SI values has no pressure to compress the lubricant
         return h * operating.film_scale
     return h * operating.film_scale / float(lubricant.density_ratio(operating.hertz_pressure))
 
@@ -151,7 +151,7 @@ def central_film(operating: OperatingPoint, lubricant: Lubricant) -> float:
 def outside(
     values: Mapping[str, float], bounds: Mapping[str, tuple[float, float]]
 ) -> tuple[str, ...]:
-    """Say which values lie outside of their bounds, in words; empty when none does."""
+    """Say which values lie outside their bounds, in words; empty when none does."""
     return tuple(
         f"{name} = {values[name]:.4g} outside {low:g} ... {high:g}"
         for name, (low, high) in bounds.items()
@@ -160,9 +160,9 @@ def outside(
 
 
 def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstimate]:
-    """All formulas at an operating point; those of its regime first, the best of them in front.
+    """Return all formulas at an operating point, those of its regime first, the best one in front.
 
-    A formula with alpha as a factor is left out where alpha is 0.
+    A formula with alpha as a factor is omitted where alpha is 0.
     """
     u, g, w = operating.speed, operating.material, operating.load_number
     shape = operating.ellipse
@@ -253,7 +253,7 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
         "h_min within 4 % of converged solutions at L = 0 and M = 8-1000, 10 % high at M = 2000; "
         "h_c up to 23 % off",
     )
-    # the formula for all regimes is replaced by one of another regime within its range alone
+    # an isoviscous formula precedes the one for all regimes only within its range
     isoviscous = here.endswith("-isoviscous")
     return sorted(result, key=lambda f: (not f.applies, isoviscous and _rank(f)))
 
@@ -265,7 +265,7 @@ def _rank(formula: FilmEstimate) -> int:
 
 
 def _applies(of: str, here: str) -> bool:
-    """Whether a formula for a regime, '' for all, is for a contact in another or between two."""
+    """Whether a formula for the regime `of`, '' for all, covers a contact in the regime `here`."""
     if not of:
         return True
     softness, viscosity = of.split("-")

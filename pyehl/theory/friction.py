@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Absolute friction: where it is meaningful, and its heat."""
+"""Coefficient of friction from the friction ratio, where it is meaningful, and its heat."""
 
 import math
 from typing import Any
@@ -19,16 +19,16 @@ def absolute_friction(
     mu_ratio: float,
     heat: Heat | None = None,
 ) -> dict[str, Any]:
-    """Coefficients of friction and what stands beside them in ``summary.json``.
+    """Coefficients of friction and the related entries of ``summary.json``.
 
-    `film` is the central film h_c [m], taken to be the film everywhere in the contact; `mu_smooth`
-    the coefficient of the smooth contact at the slide-to-roll ratio, `mu_ratio` friction over that
-    [-], both isothermal; `heat` its effect on the friction of the smooth contact, taken for the
-    rough one, too, or the effect on that of the rough one: then ``mu_smooth`` is not known. ``mu``,
-    ``mu_smooth``, the same isothermal, rises of temperature, ``shear_rate_mean_per_s``,
-    ``shear_stress_max_Pa`` (of the smooth contact), ``flash_temperature_K``, NaN where there is
-    none, and ``mu_note``: why, or the caveat. A Newtonian coefficient is given where the stress
-    stays below the Eyring stress.
+    `film` is the central film h_c [m], used for the whole contact; `mu_smooth` the coefficient of
+    the smooth contact at the slide-to-roll ratio and `mu_ratio` the friction over it [-], both
+    isothermal; `heat` the effect of frictional heating on the smooth contact, used for the rough
+    one, too, or on the rough contact: then ``mu_smooth`` is not known. Returns ``mu`` and
+    ``mu_smooth``, both also isothermal, temperature increases, ``shear_rate_mean_per_s``,
+    ``shear_stress_max_Pa`` (of the smooth contact) and ``flash_temperature_K``, each NaN where it
+    is not known, and ``mu_note``: the reason or the caveat. A Newtonian coefficient is given where
+    the stress stays below the Eyring stress.
     """
     heat = heat or Heat()
     speed, law = operating.sliding_speed, lubricant.shear

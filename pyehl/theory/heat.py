@@ -1,26 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Temperature: shear heating of the inlet, flash temperature.
 
-The same formulas as in ``fortran/physics/heat.f90``, which the solver uses. The temperature of the
-film is computed there alone.
+The formulas are those of ``fortran/physics/heat.f90``, which the solver uses. Only the solver
+computes the temperature of the film.
 """
 
 import math
 from dataclasses import dataclass
 
-# Power of the potential of a narrow contact, as in ``fortran/physics/heat.f90``
+# Exponent of `potential` in `flash_temperature`, as in ``fortran/physics/heat.f90``
 NARROW = 0.38
 
 
 @dataclass(frozen=True, slots=True)
 class Heat:
-    """Effect of the heat of sliding on the friction of a contact."""
+    """Effect of frictional heating on the friction of a contact."""
 
-    ratio: float = 1.0  # friction with it over that without it [-]; NaN: not known
-    # Maximum increases of temperature [K]: mean across the film, surfaces of body 1 and of body 2
+    ratio: float = 1.0  # friction with heating over isothermal friction [-]; NaN: not known
+    # Maximum temperature increases [K]: mean across the film, surfaces of body 1 and of body 2
     rises: tuple[float, float, float] = (math.nan, math.nan, math.nan)
-    note: str = "isothermal"  # what a coefficient of friction is then, in words
-    rough: bool = False  # whether of the rough contact, and not of the smooth one
+    note: str = "isothermal"  # how heating enters the coefficient of friction, in words
+    rough: bool = False  # whether it is for the rough contact, not for the smooth one
 
 
 def thermal_loading(
@@ -37,7 +37,7 @@ def thermal_loading(
 def thermal_reduction(loading: float, pressure: float, slide_to_roll: float) -> float:
     """Film with shear heating of the inlet over the isothermal one [-].
 
-    Gupta, Cheng, Zhu, Forster & Schrand 1992, Tribol. Trans. 35, 269, for a thermal loading, the
+    Gupta, Cheng, Zhu, Forster & Schrand 1992, Tribol. Trans. 35, 269, from the thermal loading, the
     Hertz pressure over E' and (u1 - u2)/u [-]. Not positive far outside its range.
     """
     sliding = 1.0 + 2.23 * abs(slide_to_roll) ** 0.83
@@ -52,15 +52,15 @@ def flash_temperature(
     diffusivity: tuple[float, float],
     potential: float = 1.0,
 ) -> float:
-    """Maximum temperature rise [K] of two surfaces in a Hertz contact.
+    """Maximum temperature increase [K] of two surfaces in a Hertz contact.
 
-    Heat in a semi-ellipse over the contact: Tian & Kennedy 1994, J. Tribol. 116, 167, for one
-    surface and a circle, 2.32 q a/(k sqrt(pi (1.234 + Pe))), Pe = u a/(2 kappa). On an ellipse
-    1.234 is divided by the square of `potential`, which is exact for a surface at rest; in a narrow
-    one, where heat also flows across the motion, (1.234^m + Pe^m)^(1/m) with m = potential^0.38
-    takes the place of the sum. The heat is shared so that both become equally hot (Blok 1937). Mean
-    heat flux q over the contact [W/m^2], half its length a along the motion [m], speeds of the
-    surfaces through the contact [m/s], k [W/(m K)] and kappa [m^2/s] of the solids; `potential` as
+    Semi-elliptical heat flux: for one surface and a circle 2.32 q a/(k sqrt(pi (1.234 + Pe))),
+    Pe = u a/(2 kappa) (Tian & Kennedy 1994, J. Tribol. 116, 167). For an ellipse 1.234 is divided
+    by the square of `potential`, which is exact for a stationary surface; in a narrow one, where
+    heat also flows across the motion, (1.234^m + Pe^m)^(1/m) with m = potential^0.38 replaces the
+    sum. The heat is divided so that both surfaces become equally hot (Blok 1937). Mean heat flux q
+    over the contact [W/m^2], half its length a along the motion [m], speeds of the surfaces through
+    the contact [m/s], k [W/(m K)] and kappa [m^2/s] of the solids; `potential` as
     :attr:`pyehl.theory.ellipse.Ellipse.potential` [-].
     """
     rest, power = 1.234 / potential**2, min(1.0, potential**NARROW)

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Waves in the inlet: the linearised Reynolds equation itself, with the elasticity of half-spaces.
+"""Waves in the inlet: the full linearised Reynolds equation, with elastic half-spaces.
 
-Roughness, T, Pi, mu and the units are those of :mod:`pyehl.theory.transport`. That module takes the
-coefficients of the equation to change slowly, which in the inlet they do for short waves only. Here
-it is solved on the nodes of the centre line: with D = d/dX + i k, the flow along the motion is
+Roughness, T, Pi, mu and the units are those of :mod:`pyehl.theory.transport`. That module assumes
+coefficients that change slowly, which in the inlet holds only for short waves. Here the equation is
+solved on the nodes of the centre line: with D = d/dX + i k, the flow along the motion is
 
     F = eps D Pi + eps P' ((c - d ln eta/dP) Pi - 3 T/H),   T = 1 - K^-1 * Pi,
 
 and D F - eps k_Y^2 Pi + (d/dX - i k (U - 1)) mu = 0, mu = rho (T - c H Pi). K^-1 * is the integral
 over X of (4/pi^2) K_0(kappa |X - X'|) exp(i k (X' - X)), kappa^2 = k_Y^2 + (exp(-gamma)/b)^2 with
 the semi-axis b across the motion and Euler's gamma: a wave across the motion deflects as in a strip
-as wide as the contact. Behind the last node the wave goes on as one that does not leak, and
-fades towards the edge at X = 1. Nothing is fitted. What the flow of the smooth contact to the sides
-does to the wave is left out.
+as wide as the contact. Behind the last node the wave continues without leaking and fades towards
+the edge at X = 1. Nothing is fitted. The effect of the side flow of the smooth contact on the wave
+is neglected.
 """
 
 from __future__ import annotations
@@ -30,22 +30,21 @@ from pyehl.theory.transport import INLET, Flow, Zone, stiffness, upstream
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# Nodes from START to END [a], one of them at INLET
+# Spacing of the nodes, first and last node, edge of the contact behind it [a]; INLET is a node
 SPACING, START, END, EDGE = 1.0 / 64.0, -1.6, -0.6, 1.0
-# Of a cell of constant pressure, beside the one with the singularity
+# Quadrature of the kernel over a cell of constant pressure, except the cell with the singularity
 GAUSS = np.polynomial.legendre.leggauss(4)
-# Waves for which `interpolated_inlet` solves, and between which it interpolates: |q| [1/a] and
-# direction
+# |q| [1/a] and directions at which `interpolated_inlet` solves and between which it interpolates
 WAVENUMBERS = np.geomspace(1.0, 128.0, 24)
 DIRECTIONS = np.linspace(0.0, 0.5 * np.pi, 7)
-# |q| at which half of the transport equation is taken out before [1/a]
+# |q| at which the subtracted transport solution has the weight 1/2 [1/a]
 SHORT = 16.0
 
 
 def at_inlet(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex:
-    """mu/rho at INLET (m,), turned back to X = -1 as a wave that does not leak [-].
+    """Solve for mu/rho at INLET (m,) and refer it to X = -1 as a wave that does not leak [-].
 
-    Of waves (m,) [1/a], qx >= 0, not both 0.
+    Wavenumbers qx, qy (m,) [1/a], qx >= 0, not both 0.
     """
     h, last = SPACING, round((END - INLET) / SPACING)
     x = np.asarray(INLET + h * np.arange(round((START - INLET) / h), last + 1), dtype=np.float64)
@@ -62,7 +61,7 @@ def at_inlet(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex
     bending = middles.gradient * middles.power / middles.film
     flow = bending[:, np.newaxis] * (mean @ yielding)
     flow += middles.along[:, np.newaxis] * change + softening[:, np.newaxis] * mean
-    # D F at the nodes but the ends; at the last one that of the one before
+    # D F at the inner nodes; the last node takes that of its neighbour
     inner = np.arange(n - 2)
     spread = np.zeros((qx.size, n, n - 1), dtype=complex)
     spread[:, inner + 1, inner] = -1.0 / h + 0.5 * turned[:, 0]
@@ -80,7 +79,7 @@ def at_inlet(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex
 
 
 def wave_flattening(zone: Zone, qx: Array, qy: Array, slip: Array, x: Array) -> Complex:
-    """Flattening at places x (n,) by the pressure wave there (m, n, n)."""
+    """Matrices (m, n, n) of the flattening at nodes x (n,) by the pressure wave at these nodes."""
     h, n = SPACING, x.size
     more = round((EDGE - x[-1]) / h)
     far = h * np.arange(1, n + more)
@@ -97,7 +96,7 @@ def wave_flattening(zone: Zone, qx: Array, qy: Array, slip: Array, x: Array) -> 
     for node, weight in zip(*GAUSS, strict=True):
         away = far + half * node
         beside += (half * weight) * scipy.special.k0(kappa * away) * np.exp(1j * k * away)
-    # of what is |i - j| nodes downstream or upstream
+    # by the distance i - j in nodes, upstream and downstream
     kernel = np.hstack([np.conj(beside[:, n - 2 :: -1]), near, beside])
     kernel *= 1.0 / (np.pi * float(stiffness(1.0)) * zone.stiffness)
     i, behind = np.arange(n)[:, np.newaxis], np.arange(1, more + 1)
@@ -120,38 +119,38 @@ def convected_by(n: int, h: float, slip: Array) -> Complex:
 
 
 def interpolated_inlet(zone: Zone, qx: ArrayLike, qy: ArrayLike, velocity_ratio: float) -> Complex:
-    """`at_inlet` of waves (m,) [1/a], interpolated.
+    """Interpolate `at_inlet` to waves (m,) [1/a].
 
-    Its difference from the share of :func:`pyehl.theory.transport.upstream` that short waves have
-    is smooth over wavenumber and direction. Beyond WAVENUMBERS it is held.
+    The interpolated quantity is the difference from `_weighted_upstream`, which is smooth over
+    wavenumber and direction. Beyond WAVENUMBERS it is constant.
     """
     kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
-    table = _added(pickle.dumps(replace(zone, newtonian=None)), velocity_ratio)
+    table = _difference_table(pickle.dumps(replace(zone, newtonian=None)), velocity_ratio)
     low, high = np.log(WAVENUMBERS[[0, -1]])
     q = np.clip(np.log(np.maximum(np.hypot(kx, ky), 1e-12)), low, high)
     column = (q - low) * ((WAVENUMBERS.size - 1) / (high - low))
     row = np.arctan2(ky, kx) * (2.0 / np.pi * (DIRECTIONS.size - 1))
     result = scipy.ndimage.map_coordinates(table, [row, column], order=3, mode="mirror")
-    return np.asarray(_transported(zone, kx, ky, velocity_ratio) + result)
+    return np.asarray(_weighted_upstream(zone, kx, ky, velocity_ratio) + result)
 
 
-def _transported(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex:
-    """Share of :func:`pyehl.theory.transport.upstream` that short waves have."""
-    share = 1.0 / (1.0 + (SHORT / np.maximum(np.hypot(qx, qy), 1e-12)) ** 3)
-    return np.asarray(share * upstream(zone, qx, qy, velocity_ratio))
+def _weighted_upstream(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex:
+    """:func:`pyehl.theory.transport.upstream` times a weight, 1 for short and 0 for long waves."""
+    weight = 1.0 / (1.0 + (SHORT / np.maximum(np.hypot(qx, qy), 1e-12)) ** 3)
+    return np.asarray(weight * upstream(zone, qx, qy, velocity_ratio))
 
 
 @lru_cache(maxsize=16)
-def _added(pickled: bytes, velocity_ratio: float) -> Complex:
-    """Return `interpolated_inlet` less `_transported`, by direction and |q|; the last few are kept.
+def _difference_table(pickled: bytes, velocity_ratio: float) -> Complex:
+    """Return `at_inlet` minus `_weighted_upstream` by direction and |q|; the last few are cached.
 
-    Of a zone as bytes: two with the same numbers are the same.
+    The zone is pickled so that zones of equal numbers share a cache entry.
     """
     zone = pickle.loads(pickled)
-    added = []
+    rows = []
     for direction in DIRECTIONS:
         x, y = WAVENUMBERS * np.cos(direction), WAVENUMBERS * np.sin(direction)
         wave = zone, x, y, velocity_ratio
-        added.append(at_inlet(*wave) - _transported(*wave))
-    # a wave that goes against the motion is the conjugate of one that goes along it
-    return np.array([*added, *np.conj(added[-2::-1])])
+        rows.append(at_inlet(*wave) - _weighted_upstream(*wave))
+    # a wave that travels against the motion is the conjugate of one that travels along it
+    return np.array([*rows, *np.conj(rows[-2::-1])])

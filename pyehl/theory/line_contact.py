@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The infinite line: Hertz contact, Moes numbers and film formulas of rollers and gear flanks.
+"""Line contact: Hertz contact, Moes numbers and film formulas of rollers and gear flanks.
 
-M, W and p_h of a line are not those of a point contact: here a load is one per length [N/m].
+M, W and p_h differ from those of a point contact: here the load is per unit length [N/m].
 """
 
 import math
@@ -33,7 +33,7 @@ __all__ = [
     "regime",
 ]
 
-# Conditions over which both formulas were compared with converged solutions
+# Conditions over which both film formulas were compared with converged solutions
 COMPARED = {"M": (3.0, 100.0), "L": (5.0, 10.0)}
 
 
@@ -60,7 +60,7 @@ class LineContact:
     si
         Whether the SI values were given; False when they were made from (M, L).
     thermal_reduction
-        Film over the isothermal one [-], which `viscosity` contains; 1 where it is not counted.
+        Film over the isothermal one [-], included in `viscosity`; 1 where it is neglected.
     thermal_conductivities, thermal_diffusivities
         Of body 1 and of body 2 [W/(m K)], [m^2/s].
 
@@ -114,8 +114,8 @@ class LineContact:
     ) -> Self:
         """Return the line with the given M and L, for a lubricant and a radius [m].
 
-        E' is the reference modulus, as of a point contact. L = 0 fixes no speed: alpha is 0 then,
-        and the speed that of L = 10. InputError for M that is not positive or L that is negative.
+        E' is the reference modulus, as for a point contact. L = 0 does not fix the speed: then
+        alpha is 0 and the speed that of L = 10. InputError if M is not positive or L is negative.
         """
         m = positive("moes_m_line", moes_m, "-")
         if not 0.0 <= moes_l < math.inf:
@@ -137,9 +137,8 @@ class LineContact:
     def from_settings(cls, settings: Settings) -> Self:
         """From the groups ``contact`` and ``lubricant`` of a resolved case of a line or a roller.
 
-        A roller has its mean load per length.
-
-        With ``lubricant.thermal_reduction`` the viscosity is that of the warmer inlet.
+        The load per length of a roller is its mean. With ``lubricant.thermal_reduction`` the
+        viscosity is that of the warmer inlet.
         """
         c = typed(Contact, settings["contact"])
         oil = typed(LubricantGroup, settings["lubricant"])
@@ -173,15 +172,15 @@ class LineContact:
         loading = thermal_loading(
             oil.temperature_viscosity, oil.viscosity, c.mean_velocity, oil.thermal_conductivity
         )
-        share = thermal_reduction(loading, line.hertz_pressure / c.reduced_modulus, c.slide_to_roll)
-        # the film rises with viscosity, nowhere by less than its 0.4th power
-        wanted, low, high = share * line.film, 2.5 * math.log(share), 0.0
+        ratio = thermal_reduction(loading, line.hertz_pressure / c.reduced_modulus, c.slide_to_roll)
+        # the film grows at least as viscosity^0.4, which bounds the logarithm of the viscosity
+        wanted, low, high = ratio * line.film, 2.5 * math.log(ratio), 0.0
         for _ in range(60):
             middle = 0.5 * (low + high)
             thinner = replace(line, viscosity=oil.viscosity * math.exp(middle))
             low, high = (middle, high) if thinner.film < wanted else (low, middle)
         viscosity = oil.viscosity * math.exp(0.5 * (low + high))
-        return replace(line, viscosity=viscosity, thermal_reduction=share)
+        return replace(line, viscosity=viscosity, thermal_reduction=ratio)
 
     @property
     def film(self) -> float:
@@ -200,12 +199,12 @@ class LineContact:
 
     @property
     def load(self) -> float:
-        """Load per length w [N/m], as all integrals over a line."""
+        """Load per length w [N/m]; all integrals over a line are per unit length."""
         return self.load_per_length
 
     @property
     def semi_axes(self) -> tuple[float, float]:
-        """Half width b [m], and no end across the motion."""
+        """Half width b [m], and infinity across the motion."""
         return self.half_width, math.inf
 
     @property
@@ -215,9 +214,9 @@ class LineContact:
 
     @property
     def equivalent_moes(self) -> tuple[float, float]:
-        """M and L [-] of the circle with the same dry inlet, as of an ellipse.
+        """M and L [-] of the circle with the same dry inlet, as for an ellipse.
 
-        Of equal alpha_bar, and of equal lambda_bar with heights by kernel_ratio b^2/R.
+        It has the same alpha_bar, and the same lambda_bar with heights over kernel_ratio b^2/R.
         """
         speed = self.speed_parameter / LINE.kernel_ratio**2
         moes_m = (128.0 * math.pi**3 / (3.0 * speed**3)) ** 0.25
@@ -225,7 +224,7 @@ class LineContact:
 
     @property
     def hertz_radius(self) -> float:
-        """Unit of lengths [m], as a point contact has it: the half width b."""
+        """Unit of length [m]: the half width b, as the Hertz radius of a point contact."""
         return self.half_width
 
     @property
@@ -294,14 +293,14 @@ AnyContact = OperatingPoint | LineContact
 
 
 def contact_of(settings: Settings) -> AnyContact:
-    """Give the point or line contact of a resolved case."""
+    """Return the point or line contact of a resolved case."""
     if settings["contact"].get("shape") == "line":
         return LineContact.from_settings(settings)
     return OperatingPoint.from_settings(settings)
 
 
 def scaling_contact(settings: Settings) -> AnyContact:
-    """Give the contact whose scales a resolved case has, a line for a roller."""
+    """Return the contact whose scales a resolved case uses, a line for a roller."""
     if settings["contact"].get("shape") == "roller":
         return LineContact.from_settings(settings)
     return contact_of(settings)
@@ -319,17 +318,17 @@ def circle_with_same_inlet(
 ) -> tuple[float, float]:
     """M and L [-] of the circular contact whose inlet has the same effect on waves.
 
-    Of equal alpha_bar and, with heights by which the stiffness of waves is the same, of equal
-    central film H_c = `film` [a^2/R_x]: the side flow of an ellipse acts as a lower
-    viscosity (docs/evidence/ellipse). Of a circle its own, whatever its film.
+    It has the same alpha_bar and, with heights scaled so that waves have the same stiffness, the
+    same central film H_c = `film` [a^2/R_x]: the side flow of an ellipse acts as a lower viscosity
+    (docs/evidence/ellipse). A circle is returned as it is, whatever its film.
     """
     moes_m, moes_l = operating.equivalent_moes
     if operating.radius_ratio == 1.0:
         return moes_m, moes_l
     here = film / operating.ellipse.kernel_ratio
     density = float(lubricant.density_ratio(operating.hertz_pressure))
-    share = here * density / nijenbanning_venner_moes(moes_m, moes_l)
-    ratio = inlet_viscosity_ratio(moes_m, moes_l, share)
+    film_ratio = here * density / nijenbanning_venner_moes(moes_m, moes_l)
+    ratio = inlet_viscosity_ratio(moes_m, moes_l, film_ratio)
     return moes_m * ratio**-0.75, moes_l * ratio**0.25
 
 
@@ -348,7 +347,7 @@ def _asymptotes(moes_m: float, moes_l: float) -> tuple[float, float, float, floa
 def moes_film(moes_m: float, moes_l: float) -> float:
     """H_c = h_c R/b^2 [-] of a line with an incompressible lubricant, M and L those of a line.
 
-    Moes 1992, Wear 159, 57-66: the four asymptotes, joined. Divide by the density ratio at p_h for
+    Moes 1992, Wear 159, 57-66: joins four asymptotes. Divide by the density ratio at p_h for
     a compressible lubricant. The film number of Moes is h/R (2U)^(-1/2) = 8 M H/pi. InputError if M
     is not positive or L is negative.
     """
@@ -363,14 +362,14 @@ def moes_film(moes_m: float, moes_l: float) -> float:
 
 
 def central_film(line: LineContact, lubricant: Lubricant) -> float:
-    """Central film thickness h_c [m]: Moes over rho(p_h)/rho0."""
+    """Central film thickness h_c [m]: Moes divided by rho(p_h)/rho0."""
     return line.film / float(lubricant.density_ratio(line.hertz_pressure))
 
 
 def regime(moes_m: float, moes_l: float) -> str:
-    """Name the asymptote of the line that is nearest, as 'elastic-piezoviscous'.
+    """Name the nearest asymptote of the line, as 'elastic-piezoviscous'.
 
-    'rigid to elastic-...' where those two differ by less than 1.25. InputError as of `moes_film`.
+    'rigid to elastic-...' where the two differ by a factor below 1.25. InputError as `moes_film`.
     """
     rigid_iso, elastic_iso, rigid_piezo, elastic_piezo = _asymptotes(moes_m, moes_l)
     if min(rigid_piezo, elastic_piezo) > max(rigid_iso, elastic_iso):
@@ -391,7 +390,7 @@ def dowson_higginson(speed: float, material: float, load_number: float) -> float
 
 
 def estimates(line: LineContact, lubricant: Lubricant) -> list[FilmEstimate]:
-    """Give the formulas of a line; that with alpha as a factor is left out where alpha is 0."""
+    """Return the formulas of a line; the one with alpha as a factor is omitted where alpha is 0."""
     beyond = outside({"M": line.moes_m, "L": line.moes_l}, COMPARED)
     here = regime(line.moes_m, line.moes_l)
     result = [

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Friction of a contact whose film is thinner than its roughness, by an empirical law.
 
-Asperities carry the share exp(-B (h_c/sigma)^C) of the load (Zhou & Hoeprich 1991, J. Tribol.
-113, 590, eq. 29), h_c/sigma being the central film over the composite rms height, and have a
-boundary friction of their own; the film has its friction on the rest of the load. B and C belong
-to a pair of surfaces.
+Asperities carry the fraction exp(-B (h_c/sigma)^C) of the load (Zhou & Hoeprich 1991, J. Tribol.
+113, 590, eq. 29), h_c/sigma being the central film over the composite rms height, with the boundary
+friction; the film carries the rest with its own friction. B and C depend on the pair of surfaces.
 """
 
 import math
@@ -41,7 +40,7 @@ class LoadShare:
 
     @property
     def words(self) -> str:
-        """The law with its numbers, and where its constants are from."""
+        """The law with its numbers, and the source of its constants."""
         source = (
             "constants of Aihara 1987 for pressures below 0.4 GPa and h_c/sigma up to 2"
             if (self.b, self.c) == AIHARA
@@ -53,10 +52,10 @@ class LoadShare:
         )
 
     def share(self, lambda_ratio: float) -> float:
-        """Share of the load that asperities carry [-], by h_c/sigma [-]."""
+        """Fraction of the load that asperities carry [-], from h_c/sigma [-]."""
         return math.exp(-self.b * lambda_ratio**self.c)
 
     def friction(self, lambda_ratio: float, film: float) -> float:
-        """Coefficient of friction [-] by h_c/sigma [-] and the coefficient of the film [-]."""
+        """Coefficient of friction [-] from h_c/sigma [-] and the coefficient of the film [-]."""
         share = self.share(lambda_ratio)
         return share * self.boundary_friction + (1.0 - share) * film

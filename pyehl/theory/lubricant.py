@@ -19,14 +19,14 @@ from pyehl.types import Array, Settings
 # Dowson & Higginson 1966, density under pressure
 DENSITY_PRESSURE = 5.9e8
 DENSITY_FACTOR = 1.34
-# Laws without constants of an oil but alpha and beta
+# Laws that need no constants of the oil except alpha and beta
 SIMPLE_VISCOSITY = ("roelands", "barus")
 SIMPLE_DENSITY = ("dowson-higginson", "incompressible")
 # 0 degC, and the temperature at which Roelands' viscosity is infinite [K]
-FREEZING = 273.15
+ZERO_CELSIUS = 273.15
 ROELANDS_TEMPERATURE = 138.0
 # Temperature of `density_15` [degC]
-SHEET_DENSITY = 15.0
+DENSITY_TEMPERATURE = 15.0
 
 
 def default_roelands_z(
@@ -69,14 +69,14 @@ class Lubricant:
     shear
         Shear stress in the contact, for friction.
     temperature
-        Of the inlet, to which `viscosity` belongs [degC].
+        Temperature of the inlet, for which `viscosity` holds [degC].
     temperature_viscosity
         beta = -(d eta/dT)/eta at ambient pressure and the temperature of the inlet [1/K].
     thermal_expansion
-        Relative fall of the density with temperature, of that at 15 degC [1/K]; ``"tait"`` has its
-        own among the constants.
+        Decrease of the density with temperature over the density at 15 degC [1/K]; ``"tait"`` has
+        its own among the constants.
     range_temperature_min, range_temperature_max, range_pressure_max
-        Where the constants of the law were measured [degC, Pa]; all 0: not known.
+        Range in which the constants of the law were measured [degC, Pa]; all 0: not known.
     constants
         The group ``lubricant`` of a resolved case as text, for laws with constants of an oil.
 
@@ -151,18 +151,18 @@ class Lubricant:
     def from_name(cls, name: str, temperature: float = 40.0) -> Self:
         """Return an oil of :func:`pyehl.lubricants` at a temperature of the inlet [degC].
 
-        InputError for a name that is not there, with the nearest one.
+        InputError for an unknown name, with the nearest known one.
         """
         group = text_of({"lubricant": {"name": name, "temperature": float(temperature)}})
         return cls.from_settings(values(resolve(group, "the lubricant")))
 
     def log_viscosity_ratio(self, pressure: ArrayLike, rise: ArrayLike = 0.0) -> Array:
-        """ln(eta/eta0) [-] at a pressure [Pa] and a rise of temperature [K], any shapes.
+        """ln(eta/eta0) [-] at a pressure [Pa] and a temperature increase T' [K], any shapes.
 
-        The rise is that over the temperature of the inlet. NaN below -p0 (Roelands).
+        T' is relative to the temperature of the inlet. NaN below -p0 (Roelands).
 
         Barus 1893: alpha p - beta T'; Roelands 1966: A ((1 + p/p0)^z (1 + T'/(T0 - 138 K))^-S0 - 1)
-        with A = alpha p0/z, S0 = beta (T0 - 138 K)/A and the rise T'.
+        with A = alpha p0/z, S0 = beta (T0 - 138 K)/A.
         """
         p, warmer = np.asarray(pressure, dtype=float), np.asarray(rise, dtype=float)
         if self.viscosity_law not in SIMPLE_VISCOSITY:
@@ -170,7 +170,7 @@ class Lubricant:
         if self.viscosity_law == "barus" or self.pressure_viscosity == 0.0:
             return np.asarray(self.pressure_viscosity * p - self.temperature_viscosity * warmer)
         factor = self.pressure_viscosity * self.roelands_p0 / self.roelands_z
-        above = self.temperature + FREEZING - ROELANDS_TEMPERATURE
+        above = self.temperature + ZERO_CELSIUS - ROELANDS_TEMPERATURE
         s0 = self.temperature_viscosity * above / factor
         with np.errstate(invalid="ignore", divide="ignore"):
             power = np.exp(self.roelands_z * np.log(1.0 + p / self.roelands_p0))
@@ -178,19 +178,19 @@ class Lubricant:
         return np.asarray(factor * (power - 1.0))
 
     def viscosity_ratio(self, pressure: ArrayLike, rise: ArrayLike = 0.0) -> Array:
-        """eta/eta0 [-] at a pressure [Pa] and a rise of temperature [K], any shapes."""
+        """eta/eta0 [-] at a pressure [Pa] and a temperature increase [K], any shapes."""
         return np.exp(self.log_viscosity_ratio(pressure, rise))
 
     def density_ratio(self, pressure: ArrayLike, rise: ArrayLike = 0.0) -> Array:
-        """rho/rho0 [-] at a pressure [Pa] and a rise of temperature [K], any shapes.
+        """rho/rho0 [-] at a pressure [Pa] and a temperature increase [K], any shapes.
 
-        Dowson & Higginson 1966 under pressure, linear with temperature.
+        Dowson & Higginson 1966 under pressure, linear in temperature.
         """
         p, warmer = np.asarray(pressure, dtype=float), np.asarray(rise, dtype=float)
         if self.density_law not in SIMPLE_DENSITY:
             return self._compiled(p, warmer)[1]
         expansion = self.thermal_expansion
-        inlet = 1.0 - expansion * (self.temperature - SHEET_DENSITY)
+        inlet = 1.0 - expansion * (self.temperature - DENSITY_TEMPERATURE)
         thinner = 1.0 - expansion / inlet * warmer
         if self.density_law == "incompressible":
             return np.ones_like(p) * thinner
@@ -199,7 +199,7 @@ class Lubricant:
         )
 
     def beyond(self, pressure: float) -> str:
-        """Say what is beyond the range of the constants at a pressure [Pa]; '' if nothing is."""
+        """Say which condition is outside the range of the constants at a pressure [Pa], or ''."""
         low, high = self.range_temperature_min, self.range_temperature_max
         words = ""
         if low < high and not low <= self.temperature <= high:

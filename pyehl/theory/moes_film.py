@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Central film of a point contact in Moes numbers, and the viscosity that a film belongs to."""
+"""Central film of a point contact in Moes numbers, and the inlet viscosity for a given film."""
 
 import math
 from typing import NamedTuple
@@ -8,7 +8,7 @@ from pyehl.errors import InputError
 from pyehl.theory.ellipse import Ellipse, ellipse
 
 CIRCLE = ellipse(1.0)
-# Asymptotes whose ratio is less are passed from one to the other
+# Two asymptotes within this ratio count as a transition between regimes
 ALIKE = 1.25
 
 
@@ -35,15 +35,15 @@ def _asymptotes(moes_m: float, moes_l: float, shape: Ellipse) -> _Asymptotes:
 
 
 def regime(moes_m: float, moes_l: float, shape: Ellipse = CIRCLE) -> str:
-    """Name the asymptote of the formula that is nearest, as 'elastic-piezoviscous'.
+    """Name the nearest asymptote of the formula, as 'elastic-piezoviscous'.
 
-    'rigid to elastic-...' where those two differ by less than `ALIKE`. InputError if M is not
+    'rigid to elastic-...' where the two differ by a factor below `ALIKE`. InputError if M is not
     positive or L is negative.
     """
     a = _asymptotes(moes_m, moes_l, shape)
     isoviscous = max(a.rigid_iso, min(a.elastic_iso, 1.8 / shape.radius_ratio))
     if min(a.rigid_piezo, a.elastic_piezo) > isoviscous:
-        # the thinner film of the two, and the thicker one below
+        # the thinner film of the two governs here, the thicker one in the other branch
         softness, viscosity = a.rigid_piezo / a.elastic_piezo, "piezoviscous"
     else:
         softness, viscosity = a.elastic_iso / a.rigid_iso, "isoviscous"
@@ -53,10 +53,10 @@ def regime(moes_m: float, moes_l: float, shape: Ellipse = CIRCLE) -> str:
 
 
 def nijenbanning_venner_moes(moes_m: float, moes_l: float, shape: Ellipse = CIRCLE) -> float:
-    """H_c = h_c R_x/a^2 [-] of a contact with an incompressible lubricant, M and L by R_x.
+    """H_c = h_c R_x/a^2 [-] of a contact with an incompressible lubricant, M and L with R_x.
 
-    Nijenbanning, Venner & Moes 1994, Wear 176, 217-229: the rigid-isoviscous, elastic-isoviscous,
-    rigid-piezoviscous and elastic-piezoviscous asymptotes, joined; shown accurate for R_x <= R_y.
+    Nijenbanning, Venner & Moes 1994, Wear 176, 217-229: joins the rigid-isoviscous, elastic-
+    isoviscous, rigid-piezoviscous and elastic-piezoviscous asymptotes; validated for R_x <= R_y.
     Divide by the density ratio at p_h for a compressible lubricant. InputError if M is not positive
     or L is negative.
     """
@@ -69,21 +69,21 @@ def nijenbanning_venner_moes(moes_m: float, moes_l: float, shape: Ellipse = CIRC
         piezoviscous = (rigid_piezo**-8 + elastic_piezo**-8) ** (-s / 8)
     h_m = (isoviscous ** (2 * s / 3) + piezoviscous) ** (1 / s)
     # from the Moes film number h/R (2U)^(-1/2) to h R/a^2
-    return float(h_m * (1.5 * moes_m / shape.load_share) ** (-2 / 3))
+    return float(h_m * (1.5 * moes_m / shape.load_factor) ** (-2 / 3))
 
 
 def inlet_viscosity_ratio(
     moes_m: float, moes_l: float, share: float, shape: Ellipse = CIRCLE
 ) -> float:
-    """Viscosity over that of (M, L) [-] at which the formula gives `share` of the film.
+    """Viscosity over that of (M, L) [-] at which the formula gives `share` times the film.
 
-    The form in which shear heating of the inlet enters: the film is that of the warmer oil. M and
-    L are of the isothermal contact; 0 < share.
+    Shear heating of the inlet enters in this form: the film is that of the warmer oil. M and L are
+    those of the isothermal contact; share > 0.
     """
     if share == 1.0:
         return 1.0
     wanted = share * nijenbanning_venner_moes(moes_m, moes_l, shape)
-    # the film rises with viscosity, nowhere by less than its 0.4th power
+    # the film grows at least as viscosity^0.4, which bounds the logarithm of the ratio
     low, high = sorted((2.5 * math.log(share), 0.0))
     for _ in range(60):
         middle = 0.5 * (low + high)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Oils by name, and pressure-viscosity coefficients of any lubricant."""
+"""Oils by name; pressure-viscosity coefficients alpha* and alpha_film of any lubricant."""
 
 import math
 from dataclasses import dataclass, fields
@@ -12,7 +12,7 @@ from pyehl.theory.lubricant import Lubricant
 
 __all__ = ["Constant", "Oil", "film_forming", "known_oils", "oil", "reciprocal_isoviscous"]
 
-# Of the integrals over pressure [Pa]: where they end, and nodes
+# Upper limit [Pa] and number of nodes of the integrals over pressure
 HIGHEST_PRESSURE, NODES = 1e10, 20001
 
 
@@ -21,12 +21,12 @@ class Oil(OilConstants):
     """An oil whose constants are known: ``lubricant.name`` of a case."""
 
     def constant(self, key: str) -> float | None:
-        """Give the value of a constant, None where the source has none."""
+        """Return the value of a constant, None where the source has none."""
         return next((c.value for c in self.constants if c.key == key), None)
 
     @property
     def measured(self) -> tuple[float, float, float]:
-        """Lowest and highest temperature [degC], maximum pressure [Pa]; infinite: not known."""
+        """Range of the measurements: temperatures [degC], maximum pressure [Pa]; inf: not known."""
         keys = ("range_temperature_min", "range_temperature_max", "range_pressure_max")
         result = [self.constant(key) for key in keys]
         ends = (-math.inf, math.inf, math.inf)
@@ -34,18 +34,18 @@ class Oil(OilConstants):
         return low, high, pressure
 
     def at(self, temperature: float) -> Lubricant:
-        """Give the lubricant at a temperature of the inlet [degC]."""
+        """Return the lubricant at a temperature of the inlet [degC]."""
         return Lubricant.from_name(self.name, temperature)
 
 
 def known_oils() -> dict[str, Oil]:
-    """Give all oils by name."""
+    """Return all oils by name."""
     names = [field.name for field in fields(OilConstants)]
     return {oil.name: Oil(*(getattr(oil, name) for name in names)) for oil in OILS.values()}
 
 
 def oil(name: str) -> Oil:
-    """Give an oil by its name; InputError with the nearest one."""
+    """Return an oil by its name; InputError for an unknown name, with the nearest known one."""
     oils = known_oils()
     if name not in oils:
         raise InputError(
@@ -57,7 +57,7 @@ def oil(name: str) -> Oil:
 
 def _integral(lubricant: Lubricant, end: float) -> float:
     """Integrate eta0/eta from ambient pressure to a higher one [Pa]."""
-    # dense where the integrand is
+    # nodes are dense at low pressures, where the integrand is large
     p = end * np.linspace(0.0, 1.0, NODES) ** 3
     return float(np.trapezoid(np.exp(-lubricant.log_viscosity_ratio(p)), p))
 

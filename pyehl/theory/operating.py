@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Operating conditions of a point contact, in SI units and in Moes and Hertz numbers.
+"""Operating conditions of a point contact, in SI units and as Moes and Hertz numbers.
 
 The reduced modulus E' follows 2/E' = sum over the bodies of (1 - nu^2)/E, as everywhere in this
-package. Codes that use 1/E* = sum of (1 - nu^2)/E have E* = E'/2: a factor of two.
+package. Codes that use 1/E* = sum of (1 - nu^2)/E have E* = E'/2.
 """
 
 import math
@@ -20,10 +20,10 @@ from pyehl.theory.moes_film import inlet_viscosity_ratio
 from pyehl.types import Settings
 
 # Contact body of the reference conditions (Zhang et al. 2019, table 1). A case given by M and L
-# alone has no length; these two fix one when a quantity in SI units is asked for.
+# alone has no length scale; these two provide one when an SI quantity is requested.
 REFERENCE_RADIUS = 0.018
 REFERENCE_MODULUS = 2.26e11
-# and where L = 0, which has no speed either
+# L that fixes the speed of a case with L = 0
 REFERENCE_L = 10.0
 NO_LINE = (
     "contact.shape = 'line': this is for point contacts\nexpected: a point contact; run, solve, "
@@ -37,7 +37,7 @@ NO_ROLLER = (
 
 @dataclass(frozen=True, slots=True)
 class OperatingPoint:
-    """A contact under load, with what follows from it: circular, or elliptical.
+    """A circular or elliptical contact under load, with its derived quantities.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class OperatingPoint:
     reduced_modulus
         E' [Pa], 2/E' = sum of (1 - nu^2)/E.
     viscosity
-        eta0 of the inlet [Pa s], which makes the film.
+        eta0 of the inlet [Pa s], which determines the film.
     pressure_viscosity
         alpha [1/Pa]; 0 for the isoviscous limit L = 0.
     si
@@ -61,7 +61,7 @@ class OperatingPoint:
     thermal_conductivity, thermal_diffusivity
         Of the solids [W/(m K)], [m^2/s].
     thermal_reduction
-        Film over the isothermal one [-], which `viscosity` contains; 1 where it is not counted.
+        Film over the isothermal one [-], included in `viscosity`; 1 where it is neglected.
     radius_ratio
         R_x/R_y [-]; 1: circular.
     thermal_conductivity_2, thermal_diffusivity_2
@@ -127,9 +127,9 @@ class OperatingPoint:
     ) -> Self:
         """Return the contact that has the given M and L, for a lubricant and a radius [m].
 
-        Two numbers leave two lengths and a stress free: the radius, eta0 and alpha are given, E'
-        is the reference modulus. The Hertz pressure p_h = alpha_bar/alpha follows from M, L and
-        alpha alone. L = 0 fixes no speed: alpha is 0 then, and the speed that of L = 10.
+        M and L do not fix the scales: the radius, eta0 and alpha are given, E' is the reference
+        modulus. The Hertz pressure p_h = alpha_bar/alpha follows from M, L and alpha alone. L = 0
+        does not fix the speed: then alpha is 0 and the speed that of L = 10.
 
         Raises
         ------
@@ -195,9 +195,9 @@ class OperatingPoint:
             oil.temperature_viscosity, oil.viscosity, c.mean_velocity, oil.thermal_conductivity
         )
         pressure = point.hertz_pressure / point.reduced_modulus
-        share = thermal_reduction(loading, pressure, c.slide_to_roll)
-        ratio = inlet_viscosity_ratio(point.moes_m, point.moes_l, share, point.ellipse)
-        return replace(point, viscosity=oil.viscosity * ratio, thermal_reduction=share)
+        reduction = thermal_reduction(loading, pressure, c.slide_to_roll)
+        ratio = inlet_viscosity_ratio(point.moes_m, point.moes_l, reduction, point.ellipse)
+        return replace(point, viscosity=oil.viscosity * ratio, thermal_reduction=reduction)
 
     @property
     def sliding_speed(self) -> float:
@@ -222,7 +222,7 @@ class OperatingPoint:
     @property
     def hertz_radius(self) -> float:
         """Radius a of the dry contact [m], a^3 = 3 w R/(2 E'); its semi-axis along the motion."""
-        modulus = self.reduced_modulus * self.ellipse.load_share
+        modulus = self.reduced_modulus * self.ellipse.load_factor
         return float((1.5 * self.load * self.radius / modulus) ** (1.0 / 3.0))
 
     @property
@@ -272,22 +272,21 @@ class OperatingPoint:
 
     @property
     def viscosity_parameter(self) -> float:
-        """g_V = G W2^3/U^2 [-], as regimes are drawn over (Esfahanian & Hamrock 1991)."""
+        """g_V = G W2^3/U^2 [-], viscosity axis of regime maps (Esfahanian & Hamrock 1991)."""
         return self.material * self.load_number**3 / self.speed**2
 
     @property
     def elasticity_parameter(self) -> float:
-        """g_E = W2^(8/3)/U^2 [-], the other one."""
+        """g_E = W2^(8/3)/U^2 [-], elasticity axis of regime maps."""
         return float(self.load_number ** (8.0 / 3.0) / self.speed**2)
 
     @property
     def equivalent_moes(self) -> tuple[float, float]:
-        """M and L [-] of the circle with the same dry inlet on Y = 0; of a circle its own.
+        """M and L [-] of the circle with the same dry inlet on Y = 0; for a circle its own.
 
-        Of equal alpha_bar, and of equal lambda_bar where the stiffness of waves is the same: with
-        heights by kernel_ratio a^2/R_x. The dry contact near the edge is then that of the circle.
-        The side flow is not in it, but in
-        :func:`pyehl.theory.line_contact.circle_with_same_inlet`.
+        It has the same alpha_bar, and the same lambda_bar with heights over kernel_ratio a^2/R_x,
+        which makes waves equally stiff and the dry contacts equal near the edge. Side flow is not
+        included; :func:`pyehl.theory.line_contact.circle_with_same_inlet` includes it.
         """
         shape = self.ellipse
         kernel = shape.kernel_ratio
@@ -295,7 +294,7 @@ class OperatingPoint:
 
     @property
     def alpha_bar(self) -> float:
-        """Pressure-viscosity number alpha p_h = [-], for a circle (L/pi)(3M/2)^(1/3)."""
+        """Pressure-viscosity number alpha p_h [-], for a circle (L/pi)(3M/2)^(1/3)."""
         return self.pressure_viscosity * self.hertz_pressure
 
     @property

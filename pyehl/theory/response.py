@@ -3,28 +3,28 @@
 
 Roughness A Re exp(i(k(X - U T) + k_Y Y)), U its velocity over the mean velocity, thins the film by
 A Re T exp(i(...)): T is the complex ratio of deformed to undeformed amplitude, a function of the
-wave and of the place. All lengths along the surface are scaled by the Hertz radius a, films by
+wave and of the position. Lengths along the surface are scaled by the Hertz radius a, films by
 a^2/R, pressures by p_h, times by a/u; k > 0.
 
 Behind the inlet the film wave follows the transport equation of :mod:`pyehl.theory.transport`.
 
-The effect of the inlet is the inlet transfer G = mu/rho at X = -0.8 on the centre line, turned back
-to X = -1. For waves that are short beside the inlet the transport equation itself nearly gives it,
-B; the rest is a fit to the full simulation of this package: G = (1 - w + w B) F, F = 1/(1 + z) but
-for a phase, and a weight w of 1 for short and 0 for long waves. The form has the limits G = B for
-short and 0 for long waves. z is a power law in the wavelength parameter nabla_2 = (wavelength over
-a) sqrt(M/L) to first order (Venner & Lubrecht 1999), and real for ridges along the motion, which do
-not move. At low M L the inlet leaks: z has terms in 1/(M L), and |F| changes with slip.
+The inlet transfer G = mu/rho at X = -0.8 on the centre line, with its phase referred to X = -1,
+describes the effect of the inlet. For waves that are short compared with the inlet the transport
+equation nearly gives it, B; the rest is a fit to the full simulation of this package: G = (1 - w +
+w B) F, F = 1/(1 + z) apart from a phase, with a weight w that is 1 for short and 0 for long waves.
+The limits are G = B for short and 0 for long waves. z is to first order a power law in the
+wavelength parameter nabla_2 = (wavelength over a) sqrt(M/L) (Venner & Lubrecht 1999), and real for
+ridges along the motion, which do not move. At low M L the inlet leaks: z has terms in 1/(M L), and
+|F| changes with slip.
 
-Away from the centre line the inlet is oblique. Along the normal of its edge it is an inlet like
-that on the centre line: the wavevector is turned by the angle of the normal, the part of the
-velocity along the normal makes the film, and the gap is that of the pressure next to the edge. To
-move along a straight edge changes nothing. Nothing of that is fitted (docs/evidence/response,
-docs/evidence/ellipse).
+Away from the centre line the inlet is oblique. Along the normal of its edge it acts as on the
+centre line: the wavevector is rotated by the angle of the normal, the velocity component along the
+normal forms the film, and the gap is that of the pressure next to the edge. Translation along a
+straight edge has no effect. None of this is fitted (docs/evidence/response, docs/evidence/ellipse).
 
-Where the lubricant thins by shear, or slips by more than in the fit, G is that of a Newtonian
+For a shear-thinning lubricant, or slip beyond the range of the fit, G is that of a Newtonian
 lubricant at the nearest velocity ratio of the fit, times the ratio of the solutions of the
-linearised Reynolds equation for both (:mod:`pyehl.theory.inlet`). Nothing of that is fitted.
+linearised Reynolds equation for both (:mod:`pyehl.theory.inlet`). That ratio is not fitted.
 """
 
 import json
@@ -45,28 +45,26 @@ GAIN = (0.0674, 0.3085, 2.414, 28.44)
 """Constants of `edge_gain`, fitted by docs/evidence/response/gain.py."""
 
 SHORT = 3.0
-"""nabla_2 of the wave for which the transport equation has the weight 1/2 in the inlet; other
-values serve as well (docs/evidence/response)."""
-# Waves of less weight are not integrated through the inlet
+"""nabla_2 at which the transport equation has the weight 1/2 in the inlet; other values work as
+well (docs/evidence/response)."""
+# Waves with a smaller weight are not integrated through the inlet
 MIN_WEIGHT = 1e-4
 
 
 def edge_gain(
     qx: ArrayLike, qy: ArrayLike, central_film: ArrayLike, constants: Sequence[float] | Array = GAIN
 ) -> Array:
-    """Pressure of a wave in the contact over that of the half-space, K (1 - T), at its centre [-].
+    """Pressure of a wave at the centre of the contact over that on a half-space, K (1 - T) [-].
 
-    Measured in the full simulation: 1 for waves across the motion and for short ones, up to 1.04
-    for oblique ones and ridges, more in thicker films. Fitted to waves below 0.45 a on 513 x 513
-    nodes and M >= 200 in docs/evidence/response; the rms deviation of an operating point is 0.011
-    or less, the largest 0.05. At M = 100, where little pressure is left to measure, it is wrong;
-    for ridges of a/8 it is 2 % too low.
+    From the full simulation: 1 for waves across the motion and for short ones, up to 1.04 for
+    oblique waves and ridges along the motion, more in thicker films. Fitted to waves below 0.45 a
+    on 513 x 513 nodes and M >= 200 in docs/evidence/response; the rms deviation at an operating
+    point is at most 0.011, the largest deviation 0.05. It fails at M = 100, where the pressure
+    waves are weak; for ridges of a/8 it is 2 % too low. For ellipses the pressure is computed
+    (:mod:`pyehl.theory.transport`) and this factor is not used.
 
-    On ellipses the pressure is calculated (:mod:`pyehl.theory.transport`), and there is
-    no such factor.
-
-    Wavenumbers [1/a], H_c [a^2/R]. The constants are factor and power of the film, weight of
-    oblique waves, |q| at which it fades [1/a].
+    Wavenumbers [1/a], H_c [a^2/R]. The constants are factor and exponent of the film, weight of
+    oblique waves, |q| at which the effect fades [1/a].
     """
     kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
     q = np.hypot(kx, ky)
@@ -79,13 +77,13 @@ def edge_gain(
 
 @lru_cache(maxsize=1)
 def stored_fit() -> dict[str, Any]:
-    """Coefficients of the inlet transfer, as fitted."""
+    """Return the fitted coefficients of the inlet transfer."""
     text = resources.files("pyehl.theory").joinpath("response.json").read_text(encoding="utf-8")
     return cast("dict[str, Any]", json.loads(text))
 
 
 def fitted_range() -> dict[str, list[float]]:
-    """Least and largest moes_m, moes_l and velocity_ratio at which the response was measured."""
+    """Return the range of moes_m, moes_l and velocity_ratio to which the response was fitted."""
     return cast("dict[str, list[float]]", stored_fit()["range"])
 
 
@@ -98,20 +96,20 @@ def inlet_transfer(
     y: ArrayLike = 0.0,
     spacing: float = 0.0,
 ) -> Complex:
-    """G = mu/rho where the inlet ends, turned back to the edge of the contact [-].
+    """G = mu/rho at the end of the inlet, with its phase referred to the edge of the contact [-].
 
-    On the centre line the inlet ends at X = -0.8, and the edge is at X = -1; on a line at y
-    [semi-axis], -1 < y < 1, they are as far apart along the normal of the edge. Of the smooth
-    contact on the centre line, for wavenumbers [1/a] of the same shape, qx >= 0 (at qx = y = 0 the
-    value is real), M and L of the circular contact with the same inlet, and U. The lines are the
-    first dimensions of the result.
+    On the centre line the inlet ends at X = -0.8 and the edge is at X = -1; on a line at y
+    [semi-axis], -1 < y < 1, their distance along the normal of the edge is the same. `zone` is the
+    smooth contact on the centre line, `moes` M and L of the circular contact with the same inlet,
+    `velocity_ratio` U; wavenumbers [1/a] have one shape, qx >= 0 (at qx = y = 0 G is real). The
+    lines are the first dimensions of the result.
     """
     if np.isinf(zone.ellipticity):
-        # nothing flows off to the sides: the equation holds as it is
+        # there is no side flow: the equation is solved without the fit
         lines = np.asarray(y, dtype=float)
         made = interpolated_inlet(zone, qx, qy, velocity_ratio)
         return np.broadcast_to(made, lines.shape + made.shape).copy()
-    # of the Newtonian contact, at the nearest velocity ratio that was fitted
+    # the Newtonian contact, at the nearest velocity ratio of the fit
     known, (low, high) = zone.newtonian or zone, fitted_range()["velocity_ratio"]
     known_ratio = min(max(velocity_ratio, low), high)
     base = inlet_base(known, qx, qy, moes, known_ratio, spacing)
@@ -133,7 +131,7 @@ def inlet_base(
     velocity_ratio: float,
     spacing: float = 0.0,
 ) -> Complex:
-    """1 - w + w B: the part of G on the centre line by the transport equation [-].
+    """1 - w + w B: the factor of G on the centre line from the transport equation [-].
 
     Parameters as of `inlet_transfer`; `spacing` as of :func:`pyehl.theory.transport.transport`.
     """
@@ -159,7 +157,7 @@ def inlet_fit(
     Parameters as of `inlet_transfer`.
     """
     cosine, sine, sharpness = _normal(y, ellipticity)
-    # the gap outside of the edge, and the film by the velocity along the normal
+    # M and L for the gap next to the edge and the velocity along the normal
     speed = cosine * math.sqrt(sharpness)
     moes_m, moes_l = moes[0] * sharpness**1.5 * speed**-0.75, moes[1] * speed**0.25
     moes = moes_m, moes_l
@@ -172,7 +170,7 @@ def inlet_fit(
     s = np.clip(parameter, low, high)
     c = np.abs(along) / q
     slip = velocity_ratio - 1.0
-    # beyond the range, which is reported, the leak is held as s is
+    # beyond the range, which is reported, the leak is clipped like s
     leak = min(1.0, fit["leak"] / (moes_m * moes_l))
     numbers = math.log(moes_l / 10.0), 0.5 * math.log(moes_m / 1000.0), slip, leak
     arrays = _powers(s), _powers(c)
@@ -181,25 +179,25 @@ def inlet_fit(
     )
     log_z = modulus + 2.0 * fit["slope"] * (parameter - s)
     angle = c * turning
-    # a wave that goes against the normal is the conjugate of one that goes along it
+    # a wave that travels against the normal is the conjugate of one that travels along it
     turn = np.where(along < 0.0, -1.0, 1.0)
-    # the roughness gains on the lubricant by more per length along the normal
+    # per unit length along the normal the roughness overtakes the lubricant by more
     shift = slip * (turn * kx * origin / cosine + 1j * c * growth)
     result = np.exp(1j * shift) / (1.0 + np.exp(log_z + 1j * angle))
     return np.asarray(np.where(turn < 0.0, np.conj(result), result))
 
 
 def _normal(y: float, ellipticity: float) -> tuple[float, float, float]:
-    """Give the normal of the edge of the contact at a line y [semi-axis]: cosine and sine.
+    """Cosine and sine of the normal of the edge at a line y [semi-axis], and its sharpness.
 
-    And the factor by which P^2 falls faster along it than on the centre line.
+    The sharpness is the factor by which P^2 falls faster along the normal than on the centre line.
     """
     sharpness = math.hypot(math.sqrt(1.0 - y * y), y / ellipticity)
     return math.sqrt(1.0 - y * y) / sharpness, y / (ellipticity * sharpness), sharpness
 
 
 def _nabla_2(q: Array, moes: tuple[float, float]) -> Array:
-    """Wavelength over a times sqrt(M/L)."""
+    """Return nabla_2, the wavelength over a times sqrt(M/L)."""
     return 2.0 * np.pi / np.maximum(q, 1e-12) * math.sqrt(moes[0] / moes[1])
 
 
@@ -222,7 +220,7 @@ def _polynomial(
 
 
 def _powers(variable: Array) -> Array:
-    """Powers 0 to 5, the first dimension of the result."""
+    """Return the powers 0 to 5 along the first dimension."""
     powers = np.empty((6, *variable.shape))
     powers[0] = 1.0
     for k in range(5):

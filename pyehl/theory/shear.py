@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Shear stress of the lubricant in the contact, for friction, and shear-thinning flow.
 
-The same laws as in ``fortran/physics/shear.f90``, for the prediction. In a lubricant that thins a
-gradient of pressure drives phi_x times as much along X, the direction of the sliding, and phi_y
-times as much along Y as in a Newtonian one. The factors are those of
-``fortran/physics/flow_factors.f90``, exact through the film.
+The laws are those of ``fortran/physics/shear.f90``, for the prediction. In a shear-thinning
+lubricant a pressure gradient drives phi_x times the Newtonian flow along X, the direction of
+sliding, and phi_y times along Y. ``fortran/physics/flow_factors.f90`` integrates these flow factors
+across the film.
 """
 
 import math
@@ -25,7 +25,7 @@ LAWS = ("newtonian", "eyring", "limiting", "carreau")
 
 @dataclass(frozen=True, slots=True)
 class FlowFactors:
-    """Flow factors of films and how that along X changes, all of one shape [-]."""
+    """Flow factors of films and derivatives of phi_x, all of one shape [-]."""
 
     along: Array  # phi_x
     across: Array  # phi_y
@@ -37,7 +37,7 @@ class FlowFactors:
 def flow_factors(
     law: str, exponent: float, sliding: ArrayLike, gradient: tuple[ArrayLike, ArrayLike]
 ) -> FlowFactors:
-    """Give the factors of films by B and S = (S_x, S_y).
+    """Return the flow factors of films for B and S = (S_x, S_y).
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def flow_factors(
     Raises
     ------
     EhlError
-        If the stress through a film is not found.
+        If the iteration for the stress across a film fails.
     """
     b = np.asarray(sliding, dtype=float)
     s = np.empty((2, b.size), order="F")
@@ -65,9 +65,9 @@ def flow_factors(
 
 
 def sliding_stress(law: str, exponent: float, sliding: ArrayLike) -> Array:
-    """Stress over that of the law in films that slide alone, by B of any shape [-].
+    """Stress over that of the law in films without a pressure gradient, for B of any shape [-].
 
-    NaN where it is not found.
+    NaN where the iteration fails.
     """
     b = np.asarray(sliding, dtype=float)
     stress = np.empty(b.size)
@@ -77,7 +77,7 @@ def sliding_stress(law: str, exponent: float, sliding: ArrayLike) -> Array:
 
 @dataclass(frozen=True, slots=True)
 class ShearLaw:
-    """A shear law, one of :data:`LAWS`, with its parameters; those of other laws are not used.
+    """A shear law with its parameters; those of other laws are not used.
 
     InputError for an unknown law or a number out of range.
     """
@@ -86,10 +86,10 @@ class ShearLaw:
     eyring_stress: float = 5e6  # tau_0 [Pa]
     limiting_stress: float = 0.0  # tau_L [Pa]; 0: `limiting_coefficient` times pressure
     limiting_coefficient: float = 0.06  # tau_L/p [-]
-    # Stress G at which thinning begins [Pa] and power-law exponent n [-] of Carreau; no defaults
+    # Carreau: stress G at which thinning begins [Pa], power-law exponent n [-]; no defaults
     carreau_stress: float = 0.0
     carreau_exponent: float = 0.0
-    # Whether the flow obeys the law, too: then Carreau's is that in stress form
+    # Whether the flow obeys the law, too: then Carreau's law has its stress form
     in_flow: bool = False
 
     def __post_init__(self) -> None:
@@ -124,13 +124,13 @@ class ShearLaw:
         return cls(law, in_flow=law in CODES and group.get("flow") == "consistent", **given)
 
     @property
-    def weighs_flow(self) -> bool:
+    def friction_matches_flow(self) -> bool:
         """Whether friction and flow obey the same law."""
         return self.law == "newtonian" or self.in_flow
 
     @property
     def scale(self) -> float:
-        """Stress at which a law of shear thinning of the flow takes effect [Pa]."""
+        """Stress at which shear thinning of the flow begins [Pa]."""
         return self.eyring_stress if self.law == "eyring" else self.carreau_stress
 
 

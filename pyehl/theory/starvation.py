@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Films of inlets that are short of oil, over those of flooded ones, by closed formulas."""
+"""Films of starved inlets over those of flooded ones, by closed formulas."""
 
 from pyehl.theory.film import FilmEstimate
 
 EXPONENTS = (2.0, 5.0)
-"""Least and greatest exponent gamma of `layer_reduction` (Chevalier et al. 1998)."""
+"""Minimum and maximum exponent gamma of `layer_reduction` (Chevalier et al. 1998)."""
 EXPONENT = 3.0
-"""In between, as in solutions (docs/evidence/starvation)."""
-# At an ellipticity of 6
+"""Exponent used, from converged solutions (docs/evidence/starvation)."""
+# The formula was fitted at an ellipticity of 6
 HAMROCK_DOWSON_RANGE = {"ellipticity": (6.0, 6.0)}
 
 
 def position_reduction(position: float, film: float, constants: tuple[float, ...]) -> float:
-    """Film over the flooded one where the oil begins at `position` [a] ahead of the centre.
+    """Film over the flooded one for a meniscus at `position` m [a] ahead of the centre.
 
-    `film` is the flooded one [a^2/R]. ((m - 1)/(m* - 1))^c with m* = 1 + a film^b, and 1 from m* on
+    `film` is the flooded one [a^2/R]. ((m - 1)/(m* - 1))^c with m* = 1 + a film^b, 1 for m >= m*
     (Hamrock & Dowson 1977, part IV, J. Lubr. Technol. 99, 15-23); `constants` are a, b and c.
     """
     factor, power, exponent = constants
@@ -23,11 +23,11 @@ def position_reduction(position: float, film: float, constants: tuple[float, ...
 
 
 CENTRAL, MINIMUM = (3.06, 0.58, 0.29), (3.34, 0.56, 0.25)
-"""Constants of central and minimum film."""
+"""Constants for the central and the minimum film."""
 
 
 def layer_reduction(ratio: float, exponent: float = EXPONENT) -> float:
-    """h_c over the flooded one for `ratio` r = h_oil/(rho(p_h) h_flooded), oil in the inlet.
+    """h_c over the flooded one for `ratio` r = h_oil/(rho(p_h) h_flooded), h_oil the inlet layer.
 
     r/(1 + r^gamma)^(1/gamma): Chevalier, Lubrecht, Cann, Colin & Dalmaz 1998, J. Tribol. 120,
     126-133.
@@ -43,10 +43,10 @@ def estimate(
     density: float,
     ellipticity: float,
 ) -> FilmEstimate | None:
-    """Give films [m] where the inlet is short of oil, else None.
+    """Return the films [m] of a starved inlet, None of a flooded one.
 
-    `position` [a] or `layer` [a^2/R], the other 0; `flooded` films h_c and h_min [m] of a flooded
-    inlet, NaN where not known; `scale` a^2/R [m]; `density` at the Hertz pressure [-].
+    Either `position` [a] or `layer` [a^2/R] is given, the other is 0; `flooded` films h_c and h_min
+    [m], NaN where not known; `scale` a^2/R [m]; `density` at the Hertz pressure [-].
     """
     h_c, h_min = flooded
     if position > 0.0:
@@ -82,9 +82,9 @@ def estimate(
 
 
 def line_estimate(layer: float, flooded: float) -> FilmEstimate:
-    """Give the film [m] of a line: all the oil that arrives, up to the flooded film.
+    """Return the film [m] of a line: all the oil that arrives, up to the flooded film.
 
-    `layer` [m] is that of the oil at its density in the contact.
+    `layer` [m] is the thickness of the oil at its density in the contact.
     """
     return FilmEstimate(
         name="starved: all oil that arrives",

@@ -2,8 +2,8 @@
 """The Stribeck curve of harmonic roughness against theta_2.
 
 Zhang, Biboulet, Venner & Lubrecht 2019, doi 10.1016/j.triboint.2019.01.028, eq. 16 and section
-4.2. The curve is the ratio of rough to smooth friction of a Newtonian lubricant in the limit of
-vanishing slide-to-roll ratio; shear thinning at real sliding speeds brings it close to one.
+4.2. The curve is the ratio of rough to smooth friction of a Newtonian lubricant as the slide-to-
+roll ratio vanishes; at practical sliding speeds shear thinning brings the ratio close to one.
 """
 
 import numpy as np

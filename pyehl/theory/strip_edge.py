@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pressure of a wave of roughness on the strip of a line contact: the disc of :mod:`.disc`.
+"""Pressure of a wave of roughness on the strip of a line contact, as :mod:`.disc` on a circle.
 
 A pressure p(X) exp(i k_Y Y) on |X| < 1 deflects the half-space by (1/pi) times the integral of
 K_0(|k_Y| |X - X'|) p(X'), of -ln|X - X'| at k_Y = 0 (Johnson 1985, Contact Mechanics, chapter 2).
 With p a sum of T_n(X)/sqrt(1 - X^2) the logarithm gives T_n/n, and the rest of the kernel, which is
-smooth, is integrated at Chebyshev points: for each k_Y there is one small set of equations. At
-k_Y = 0 the load per length is fixed, so that there is no T_0. Lengths by b, heights by b^2/R,
-pressures by p_h, in which the half-space has the stiffness |q|.
+smooth, is integrated at Chebyshev points: each k_Y has a small system of equations. At k_Y = 0 the
+load per length is fixed, so that there is no T_0. Lengths are scaled by b, heights by b^2/R,
+pressures by p_h; the half-space then has the stiffness |q|.
 """
 
 import math
@@ -21,11 +21,11 @@ from pyehl.types import Array, Complex, Indices
 DEGREE = 10
 """Degree of the polynomials in X."""
 PLACES = 41
-"""Places at which they are fitted."""
+"""Points at which the polynomials are fitted."""
 NODES = 256
-"""Chebyshev points of the integrals."""
+"""Number of Chebyshev points of the integrals."""
 PER_WAVE = 16
-"""Intervals of an edge per shortest wave across the motion."""
+"""Intervals along an edge per shortest wavelength across the motion."""
 ORDERS = math.ceil(MAX_WAVENUMBER) + 12
 """Highest order n: a plane wave has no higher ones."""
 
@@ -33,18 +33,18 @@ ORDERS = math.ceil(MAX_WAVENUMBER) + 12
 class StripEdge:
     """Effect of the edges of a strip on the pressure of long waves.
 
-    As products of polynomials in X and waves across the motion, with wavenumbers |k_Y| (m,) [1/b],
-    all of which repeat after a width [b].
+    Represented by products of polynomials in X and waves across the motion with wavenumbers |k_Y|
+    (m,) [1/b] and the common period `width` [b].
     """
 
     largest = MAX_WAVENUMBER
-    """Largest wavenumber on which an edge has an effect [1/b]."""
+    """Largest wavenumber that an edge affects [1/b]."""
 
     def __init__(self, across: Array, width: float) -> None:
         self.across, self.width = np.asarray(across, dtype=float), width
         shortest = 2.0 * math.pi / float(self.across.max(initial=0.0) or 1.0)
         self.places = math.ceil(PER_WAVE * max(1.0, width / shortest))
-        """Intervals along an edge at whose ends its displacement is computed."""
+        """Number of intervals along an edge; its displacement is computed at their ends."""
         self._x = np.asarray(np.linspace(-RADIUS, RADIUS, PLACES), dtype=float)
         basis = chebyshev.chebvander(self._x / RADIUS, DEGREE)
         self._inverse = np.asarray(np.linalg.pinv(basis), dtype=float)
@@ -56,14 +56,14 @@ class StripEdge:
         return np.asarray(chebyshev.chebvander(held / RADIUS, DEGREE))
 
     def waves(self, y: Array) -> Array:
-        """Waves (2 m, n) across the motion at places Y [b]."""
+        """Cosines and sines (2 m, n) across the motion at Y (n,) [b]."""
         phase = np.outer(self.across, y)
         return np.stack([np.cos(phase), np.sin(phase)], axis=1).reshape(
             2 * self.across.size, y.size
         )
 
     def correction(self, qx: Array, qy: Array) -> Complex:
-        """Return the pressure of waves (m,) [1/b] on the strip less that on the half-space.
+        """Return the pressure of waves (m,) [1/b] on the strip minus that on the half-space.
 
         Coefficients (n, m) of the products of `waves` and `polynomials` [p_h per b^2/R].
         """
@@ -73,14 +73,14 @@ class StripEdge:
             local = np.hypot(qx[wave], qy[wave]) * np.exp(1j * np.outer(self._x, qx[wave]))
             part = self._inverse @ (orders @ there - local)
             result[k, 0][:, wave] = part
-            # exp(i k_Y Y) by the cosine and the sine of |k_Y| Y
+            # exp(i k_Y Y) from the cosine and the sine of |k_Y| Y
             result[k, 1][:, wave] = 1j * np.sign(qy[wave]) * part
         return result.reshape(2 * self.across.size * (DEGREE + 1), qx.size)
 
     def displacement(self, qx: Array, qy: Array) -> Complex:
-        """How far waves (m,) move the edges outwards, :func:`pyehl.theory.disc.edge_of_disc`.
+        """Outward displacement of the edges by waves (m,), :func:`pyehl.theory.disc.edge_of_disc`.
 
-        At X = -1, then X = 1, at the ends (n,) of intervals of the width: (2 n, m).
+        First at X = -1, then at X = 1, at the ends (n,) of the intervals: (2 n, m).
         """
         y = np.linspace(0.0, self.width, self.places + 1)
         result = np.zeros((2, y.size, qx.size), dtype=complex)
@@ -91,7 +91,7 @@ class StripEdge:
         return result.reshape(2 * y.size, qx.size)
 
     def waves_and_weights(self, qx: Array, qy: Array) -> Iterator[tuple[int, Indices, Complex]]:
-        """Waves (l,) of each |k_Y|, and weights (orders, l) of T_n/sqrt(1 - X^2) in pressure."""
+        """Yield for each |k_Y| its waves (l,) and the weights (orders, l) of T_n/sqrt(1 - X^2)."""
         from scipy.special import jv  # noqa: PLC0415 (takes as long to load as all the rest)
 
         if not qx.size:
@@ -106,9 +106,9 @@ class StripEdge:
 
 
 def _equations(k: float) -> Array:
-    """Weights of T_n/sqrt(1 - X^2) by the integrals of T_n f/sqrt(1 - X^2) of a deflection f."""
+    """Matrix from the integrals of T_n f/sqrt(1 - X^2), f a deflection, to pressure weights."""
     n = np.arange(ORDERS + 1)
-    # of the logarithm
+    # of the logarithmic kernel
     diagonal = np.append(math.pi * math.log(2.0), 0.5 * math.pi / n[1:])
     if k == 0.0:
         return np.diag(np.append(0.0, 1.0 / diagonal[1:]))

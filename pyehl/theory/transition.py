@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where full film ends along a Stribeck curve, and the speed at which contact ends."""
+"""End of full film along a Stribeck curve, and the speed at which solid contact ends."""
 
 import math
 from collections.abc import Sequence
@@ -11,10 +11,10 @@ import pandas as pd
 from pyehl.types import Array
 
 STATUSES = ("full film", "mixed film", "film breakdown", "outside the range", "not solved")
-"""What a point of a curve can be."""
+"""Status of a point of a curve."""
 FULL_FILM, MIXED, BREAKDOWN, OUTSIDE, UNSOLVED = STATUSES
 LIFT_OFF = 0.01
-"""Share of the load at the boundary film to which it falls at the transition speed."""
+"""Load share of the boundary film at the transition speed."""
 SPEED = "contact.mean_velocity"
 
 
@@ -33,11 +33,11 @@ class Curve:
         return self.column(self.key)
 
     def column(self, name: str) -> Array:
-        """Give a column (n,); a number that does not exist is NaN."""
+        """Return a column (n,); a missing number is NaN."""
         return self.table[name].to_numpy(float)
 
     def friction(self, name: str = "mu_ratio") -> Array:
-        """Give a column of ratios (n,), as coefficients where these are drawn."""
+        """Return a column of friction ratios (n,), as coefficients where these are drawn."""
         if not self.absolute:
             return self.column(name)
         # in contact with frictional heating there is no mu_smooth
@@ -46,7 +46,7 @@ class Curve:
 
     @property
     def broken(self) -> tuple[int, ...]:
-        """Places of the rows without a full film."""
+        """Indices of the rows without a full film."""
         return tuple(np.flatnonzero(self.table["status"].isin((BREAKDOWN, MIXED))).tolist())
 
     @property
@@ -56,7 +56,7 @@ class Curve:
 
     @property
     def lift_off(self) -> "LiftOff | None":
-        """Where contact ends; None where that is not on the curve."""
+        """Where solid contact ends; None where that is not on the curve."""
         known = self.key == SPEED and "contact_load_share" in self.table
         return lift_off(self.places, self.table) if known else None
 
@@ -64,12 +64,12 @@ class Curve:
 def full_film_ends(key: str, places: Sequence[float] | Array, statuses: Sequence[str]) -> str:
     """Report where full film ends along a curve over `key`.
 
-    `places` are its values, ascending or descending, with the status of the curve at these.
+    `places` are its values, ascending or descending, `statuses` the status of the curve at each.
     """
     broken = [k for k, status in enumerate(statuses) if status in (BREAKDOWN, MIXED)]
     known = [k for k, status in enumerate(statuses) if status in (FULL_FILM, OUTSIDE)]
-    lost = len(statuses) - len(known) - len(broken)
-    rest = f" with a result; {lost} have none" if lost else ""
+    missing = len(statuses) - len(known) - len(broken)
+    rest = f" with a result; {missing} have none" if missing else ""
     far = statuses.count(OUTSIDE)
     beyond = f"; {far} of them outside the range of the prediction" if far else ""
     if not known and not broken:
@@ -85,13 +85,13 @@ def full_film_ends(key: str, places: Sequence[float] | Array, statuses: Sequence
 
 @dataclass(frozen=True, slots=True)
 class LiftOff:
-    """Where contact ends along a curve over the speed; NaN for what is not known.
+    """Where solid contact ends along a curve over the speed; NaN for what is not known.
 
-    Without an error there is no speed.
+    A speed is given only with its error.
     """
 
     speed: float = math.nan  # transition speed [m/s]
-    error: float = math.nan  # by the error of the load share [m/s]
+    error: float = math.nan  # from the error of the load share [m/s]
     lambda_ratio: float = math.nan  # [-]
     theta_2: float = math.nan  # [-]
 
@@ -134,7 +134,7 @@ def lift_off(speeds: Array, table: pd.DataFrame) -> LiftOff | None:
 
 
 def _crossing(speeds: Array, share: Array) -> float | None:
-    """Highest speed at which a load share falls to `LIFT_OFF`, by the logarithm of the speed."""
+    """Highest speed at which a load share falls to `LIFT_OFF`, log-linear in the speed."""
     falls = np.flatnonzero((share[:-1] > LIFT_OFF) & (share[1:] <= LIFT_OFF))
     if not falls.size:
         return None

@@ -8,26 +8,26 @@ scaled by the Hertz radius a, films by a^2/R, pressures by p_h, times by a/u; k 
 The half-space gives Pi = K (1 - T) + i K k/|q|^2 T', K = (pi/4)|q|, |q| = hypot(k, k_Y): to first
 order the stiffness of a wave whose amplitude changes along the motion (`wave_pressure`: of the
 wavenumber k U that it then has). In an elliptical contact K is `Zone.stiffness` times as much.
-The mass that the film wave holds is mu = rho (T - c H Pi), c = d ln rho/dP, and with eps = rho
+The mass in the film wave is mu = rho (T - c H Pi), c = d ln rho/dP, and with eps = rho
 H^3/(eta lambda), delta ln eps = g = (c - d ln eta/dP) Pi - 3 T/H the Reynolds equation reads
 
     mu' = i k (U - 1) mu + eps |q|^2 Pi - i k eps' Pi - (eps' + 2 i k eps) Pi' - eps Pi''
           - eps P' (i k g + g'),
 
-primes are d/dX; g (rho H)', what the smooth film gains or loses, is left out. The coefficients
-change slowly, so that mu' = a mu + b with a = mu'/mu where no roughness drives. For stiff
-lubricants eps vanishes: mu arises in the inlet and is then convected at the mean velocity, a wave
-of wavenumber kU (Greenwood & Morales-Espejel 1994; Hooke 1999 to 2007), beside C/(1 + C), C = K H
-c, which compressibility leaves with the roughness. eps |q|^2 Pi, the leak by viscous flow
-(Morales-Espejel & Brizmer 2011), matters for short waves and low pressures; the terms behind it,
-what the flow of the smooth contact does to the wave, where it leaks a lot. In the inlet, where eps
-falls by orders of magnitude, the coefficients change slowly for short waves only: `upstream`.
+primes are d/dX; g (rho H)', the change of the smooth film along X, is neglected. The coefficients
+change slowly, so that mu' = a mu + b with a = mu'/mu where no roughness drives. At high viscosity
+eps vanishes: mu arises in the inlet and is then convected at the mean velocity as a wave of
+wavenumber kU (Greenwood & Morales-Espejel 1994; Hooke 1999 to 2007); a part C/(1 + C), C = K H c,
+moves with the roughness by compressibility. eps |q|^2 Pi, the leak by viscous flow (Morales-Espejel
+& Brizmer 2011), matters for short waves and low pressures; the terms after it, the effect of the
+flow of the smooth contact on the wave, matter where the leak is large. In the inlet, where eps
+falls by orders of magnitude, the coefficients change slowly only for short waves: `upstream`.
 
-A lubricant that thins by shear flows phi_x times as easily along the motion and phi_y times across
-(:mod:`pyehl.theory.shear`). Then eps |q|^2 is eps_t k^2 + eps_y k_Y^2 with eps_t = -dq_x/d(P'),
-eps' and eps'' terms have eps_t, eps P' is eps_x P', and of delta ln eps_x = g the part of the
-pressure is c - (d ln eta/dP) (1 - d ln phi_x/d ln B), that of the film 3 - d ln phi_x/d ln B +
-d ln phi_x/d ln S.
+In a shear-thinning lubricant the flow is phi_x times as large along the motion and phi_y times
+across (:mod:`pyehl.theory.shear`). Then eps |q|^2 becomes eps_t k^2 + eps_y k_Y^2 with eps_t =
+-dq_x/d(P'), the terms in eps' and eps'' have eps_t, eps P' becomes eps_x P', and in delta ln eps_x
+= g the factor of Pi is c - (d ln eta/dP) (1 - d ln phi_x/d ln B) and that of -T/H is
+3 - d ln phi_x/d ln B + d ln phi_x/d ln S.
 """
 
 from __future__ import annotations
@@ -43,24 +43,24 @@ from pyehl.theory.shear import FlowFactors, flow_factors
 from pyehl.types import Array, Complex
 
 INLET = -0.8
-"""Where the zone of high pressure is taken to begin, on the centre line [a]."""
+"""Assumed beginning of the zone of high pressure on the centre line [a]."""
 
-# Ends of the steps from where everything leaks, P = 0, to INLET: short where the leak falls below
-# the slip. Half of them changes T of the fitted waves by 0.005 at small slip, by 0.017 at most, for
-# a/32 at 20 % of slip; the fit of the inlet is to these steps
+# Ends of the steps from P = 0, where the wave leaks freely, to INLET; short where the leak falls
+# below the slip. Half the steps change T of the fitted waves by 0.005 at small slip, by 0.017 at
+# most, for a/32 at 20 % slip; the inlet was fitted with these steps
 APPROACH = np.concatenate(
     [np.arange(-1.2, -1.06, 0.025), np.arange(-1.05, -0.91, 0.0125), np.arange(-0.9, -0.79, 0.025)]
 )
 
-# Largest change of X behind INLET [a]. Half of it changes T by 0.001 at small slip, 0.008 at most
+# Largest step in X behind INLET [a]. Half of it changes T by 0.001 at small slip, 0.008 at most
 STEP = 0.05
-# Behind this X the pressure falls too fast for slowly changing coefficients: no eps', no P'
+# Behind this X the pressure falls too fast for slowly changing coefficients: eps' and P' are zero
 OUTLET = 0.6
 
 
 @dataclass(frozen=True, slots=True)
 class Zone:
-    """The smooth contact on its centre line, and the properties of the lubricant in a wave."""
+    """The smooth contact on its centre line, and the properties of the lubricant there."""
 
     x: Array  # ascending [a], (n,)
     pressure: Array  # P [p_h]
@@ -71,16 +71,15 @@ class Zone:
     thickening: Array  # d ln eta/dP [-]
     conductance: Array  # eps = rho H^3/(eta lambda) [-]
     stiffness: float = 1.0  # of waves, over that in a circular contact [-]
-    # How much more than a Newtonian lubricant flows, and how that changes; None: Newtonian
-    factors: FlowFactors | None = None
-    newtonian: Zone | None = None  # that contact with a Newtonian lubricant; None: it is
+    factors: FlowFactors | None = None  # of a shear-thinning lubricant; None: Newtonian
+    newtonian: Zone | None = None  # the contact with a Newtonian lubricant; None: this one
     ellipticity: float = 1.0  # semi-axis across the motion over a [-]
 
 
 def zone_on(
     x: Array, pressure: Array, film: Array, operating: AnyContact, lubricant: Lubricant
 ) -> Zone:
-    """Return the zone of a centre line: X [a], P [p_h] and H [a^2/R], (n,) each."""
+    """Return the zone from X [a], P [p_h] and H [a^2/R] on the centre line, (n,) each."""
     step = 1e-3
     lower, p, higher = (
         (pressure + change) * operating.hertz_pressure for change in (-step, 0.0, step)
@@ -108,7 +107,7 @@ def zone_on(
 def _factors(
     film: Array, slope: Array, eta: Array, operating: AnyContact, lubricant: Lubricant
 ) -> FlowFactors:
-    """Flow factors of films H [a^2/R] by dP/dX [p_h/a] and eta/eta0 [-], (n,) each."""
+    """Flow factors from H [a^2/R], dP/dX [p_h/a] and eta/eta0 [-], (n,) each."""
     shear = lubricant.shear
     h = film * operating.film_scale
     newtonian = eta * lubricant.viscosity * operating.sliding_speed / h
@@ -118,13 +117,13 @@ def _factors(
 
 
 class Flow:
-    """The smooth contact at places (n,), for the coefficients of the equation."""
+    """The smooth contact interpolated to positions (n,), for the coefficients of the equation."""
 
     def __init__(self, zone: Zone, places: Array) -> None:
         def at(values: Array) -> Array:
             return np.interp(places, zone.x, values)
 
-        # waves of a large amplitude may leak so little that it is 0
+        # in waves of large amplitude the conductance may underflow to 0
         logarithm = np.log(np.maximum(zone.conductance, np.finfo(float).tiny))
         inside = np.where((places >= zone.x[0]) & (places <= OUTLET), 1.0, 0.0)
         self.film, self.density = at(zone.film), at(zone.density)
@@ -141,13 +140,13 @@ class Flow:
 
 
 def _newtonian(x: Array) -> FlowFactors:
-    """Flow factors at places (n,) of a Newtonian lubricant."""
+    """Flow factors of a Newtonian lubricant at positions (n,)."""
     one, none = np.ones_like(x), np.zeros_like(x)
     return FlowFactors(one, one, none, none, one)
 
 
 class _Waves:
-    """Waves (m,): T and the change of mu, both linear in mu, at the places of a flow."""
+    """Waves (m,): T and dmu/dX, both linear in mu, at the positions of a flow."""
 
     def __init__(
         self, zone: Zone, qx: Array, qy: Array, velocity_ratio: float, spacing: float
@@ -155,7 +154,7 @@ class _Waves:
         cells = 0.5 * spacing / np.pi
         along, across = np.sinc(cells * qx), np.sinc(cells * qy)
         squared = qx * qx + qy * qy
-        # div grad of the pressure, by differences, and its part along X
+        # symbol of the discrete Laplacian of the pressure, and its part along X
         self.squared_along = np.square(along * qx)
         self.squared = self.squared_along + np.square(across * qy)
         self.k = zone.stiffness * stiffness(np.sqrt(squared)) / (along * across)
@@ -164,7 +163,7 @@ class _Waves:
         self.changing = self.turned * self.k / np.maximum(squared, 1e-24)
 
     def at(self, flow: Flow, i: int) -> tuple[Complex, Complex, Complex, Complex]:
-        """Give a, b, t, s of mu' = a mu + b and T = t mu + s at the place i."""
+        """Return a, b, t, s of mu' = a mu + b and T = t mu + s at position i."""
         e, h, rho, k = flow.along[i], flow.film[i], flow.density[i], self.k
         held = flow.compressibility[i] * h
         soft, slope, gradient = flow.softening[i], flow.slope[i], flow.gradient[i]
@@ -174,13 +173,13 @@ class _Waves:
         by_film = bending * self.turned
         by_change = -slope - (2.0 * e) * self.turned - soft * gradient
         share = 1.0 / (1.0 + k * held)
-        # as if the amplitude did not change, then with its change
+        # first with constant amplitude, then with its change along X
         t, s = share / rho + 0j, k * held * share + 0j
         p, r = -k * t, k * share + 0j
         for change in (self.changing, None):
             left = 1.0 - by_change * p - bending * t
             whole = self.slip + by_pressure * p + by_film * t
-            # of e p a^2 + left a = whole the root that is whole/left where little leaks
+            # the root of e p a^2 + left a = whole that tends to whole/left for a small leak
             root = 2.0 / (left + np.sqrt(left * left + (4.0 * e) * p * whole))
             a = whole * root
             b = (by_pressure * r + by_film * s) * root
@@ -194,14 +193,14 @@ class _Waves:
 def stiffness(q: ArrayLike) -> Array:
     """K = (pi/4)|q|: pressure [p_h] per height of flattening [a^2/R] of a wave |q| [1/a].
 
-    E'|q|/4 in the Hertz units of a circle (Johnson 1985, Contact Mechanics, section 13.2); in those
-    of an ellipse this over its kernel ratio.
+    E'|q|/4 in the Hertz units of a circle (Johnson 1985, Contact Mechanics, section 13.2); for an
+    ellipse divide by its kernel ratio.
     """
     return 0.25 * np.pi * np.asarray(q, dtype=float)
 
 
 def free_stiffness(qx: ArrayLike, qy: ArrayLike, velocity_ratio: float) -> Array:
-    """K of the free wave that roughness (qx, qy) makes: along the motion its wavenumber is qx U."""
+    """K of the free wave that roughness (qx, qy) causes; its wavenumber along X is qx U."""
     return stiffness(np.hypot(velocity_ratio * np.asarray(qx, dtype=float), qy))
 
 
@@ -210,7 +209,7 @@ def wave_pressure(
 ) -> Complex:
     """Pressure over roughness [p_h R/a^2]: flattened amplitude times stiffness of each part.
 
-    Of a circle. Wavenumbers of the roughness [1/a], U, driven and free parts of T [-].
+    For a circle. Wavenumbers of the roughness [1/a], U, driven and free parts of T [-].
     """
     k, k_free = stiffness(np.hypot(qx, qy)), free_stiffness(qx, qy, velocity_ratio)
     return np.asarray(k * (1.0 - driven) - k_free * free)
@@ -221,14 +220,14 @@ def upstream(
 ) -> Complex:
     """Integrate the transport equation to INLET from where the wave follows the roughness.
 
-    mu/rho at INLET (m,), turned back to X = -1 as a wave that does not leak [-], of waves (m,)
-    [1/a], qx >= 0, that are short beside the inlet: for longer ones its coefficients change too
-    fast. `spacing` as in `transport`.
+    Returns mu/rho at INLET (m,), referred to X = -1 as a wave that does not leak [-], for waves
+    (m,) [1/a], qx >= 0, that are short compared with the inlet: for longer ones the coefficients
+    change too fast. `spacing` as in `transport`.
     """
     lengths = np.diff(APPROACH)
     flow = Flow(zone, APPROACH[:-1] + 0.5 * lengths)
     waves = _Waves(zone, qx, qy, velocity_ratio, spacing)
-    # where nothing leaks or slips any mu is a solution: that of the undeformed wave
+    # without leak and slip any mu is a solution; take that of the undeformed wave
     mu = np.full(qx.shape, flow.density[0], dtype=complex)
     for i, h in enumerate(lengths):
         a, b, _, _ = waves.at(flow, i)
@@ -256,9 +255,9 @@ def transport(
     """Integrate the transport equation from the inlet to the stations, ascending X (n,) [a].
 
     At each station (driven, free), both (m,), with T = driven + free G exp(i qx (U - 1)(X + 1)),
-    for wavenumbers (m,) [1/a], qx >= 0. `spacing` is that of the grid of a simulation to compare
-    with [a]: on cells of constant pressure a wave is stiffer by the mean of its cosine over a
-    cell, and by differences it leaks less. 0: the half-space and the equation themselves.
+    for wavenumbers (m,) [1/a], qx >= 0. `spacing` is the mesh size of a simulation to compare with
+    [a]: with constant pressure on cells a wave is stiffer (its cosine averaged over a cell), and
+    with finite differences it leaks less. 0: the continuous equations.
     """
     starts = np.concatenate([[INLET], stations[:-1]])
     steps = np.ceil((stations - starts) / STEP - 1e-9).astype(int)
@@ -284,19 +283,19 @@ def transport(
 
 
 LINES = np.array([-0.95, -0.8, -0.6, -0.3, 0.0, 0.3, 0.6, 0.8, 0.95])
-"""Lines along the motion on which the free wave is made [semi-axis], symmetric about the centre
+"""Lines along the motion on which the free wave is computed [semi-axis], symmetric about the centre
 line; between them it is interpolated."""
 
-# Waves across the motion: their period and where they have fallen to zero [semi-axis], and how many
-# there are: the lines do not resolve shorter ones than half a semi-axis. In a contact 1.6 times as
-# long as wide twice the period, or zero at 1.5 or 1.9, change mu_r/mu_s by 0.004 % at most, half
-# and twice as many waves by 0.014 and 0.065 %, a quarter of the samples by 1e-4 %
+# Waves across the motion: period, distance at which they are zero [semi-axis], and number; the
+# lines do not resolve wavelengths below half a semi-axis. In a contact 1.6 times as long as wide
+# twice the period, or zero at 1.5 or 1.9, changes mu_r/mu_s by 0.004 % at most, half and twice as
+# many waves by 0.014 and 0.065 %, a quarter of the samples by 1e-4 %
 PERIOD, END, SHORTEST = 4.0, 1.7, 8
 SAMPLES = 256
 
 
 def harmonics(amplitudes: Complex) -> tuple[Array, Complex]:
-    """Wavenumbers (n,) [1/semi-axis] and parts (n, ...) of amplitudes on LINES (lines, ...)."""
+    """Wavenumbers (n,) [1/semi-axis] and Fourier parts (n, ...) of amplitudes on LINES."""
     y = PERIOD * (np.arange(SAMPLES) / SAMPLES - 0.5)
     places = np.concatenate([[-END, -1.0], LINES, [1.0, END]])
     held = np.pad(np.pad(np.eye(LINES.size), ((1, 1), (0, 0)), mode="edge"), ((1, 1), (0, 0)))
@@ -309,14 +308,13 @@ def harmonics(amplitudes: Complex) -> tuple[Array, Complex]:
 def line_pressure(
     amplitudes: Complex, kx: Array, ky: Array, velocity_ratio: float, ellipticity: float
 ) -> Complex:
-    """Pressure on LINES of waves of film whose amplitude changes across the motion.
+    """Pressure on LINES of film waves whose amplitude varies across the motion.
 
-    Of a half-space under a circle, for amplitudes (lines, ...) of free waves that roughness (kx,
-    ky) [1/a] makes. The sides of a narrow contact flatten a wave as long as it is wide more than
-    the middle does. Where the amplitude is a sum of waves across the motion, so is the film, and
-    each has its own stiffness. Beyond the contact it falls to zero; the values there are not those
-    of a film, and are removed by :class:`pyehl.prediction.moving_tile.Edge`. No constant in it is
-    fitted.
+    In the units of a circle, for amplitudes (lines, ...) of free waves that roughness (kx, ky)
+    [1/a] causes. The sides of a narrow contact flatten a wave as long as its width more than the
+    middle does. The amplitude is expanded in waves across the motion, each with its own stiffness.
+    Beyond the contact it falls to zero; the values there have no physical meaning and
+    :class:`pyehl.prediction.moving_tile.Edge` removes them. No constant is fitted.
     """
     here = free_stiffness(kx, ky, velocity_ratio)
     result = here * amplitudes

@@ -17,7 +17,7 @@ from pyehl.plots.stribeck import draw_stribeck
 from pyehl.prediction.predict import predict
 from pyehl.schema import summary_of as scalars_of
 from pyehl.studies.curve import CONTACT, CONTACT_EHL, EMPIRICAL, UNITS
-from pyehl.theory.elastic_contact import Compliance, lifted
+from pyehl.theory.elastic_contact import Compliance, contact_pressures
 from pyehl.theory.friction import OF_ROUGH
 from pyehl.theory.transition import BREAKDOWN, FULL_FILM, Curve, lift_off
 
@@ -326,7 +326,7 @@ def test_obstacle(most):
     q = np.hypot(np.fft.rfftfreq(60)[:, None], np.fft.fftfreq(60)[None])
     kernel = np.divide(1.0, q, out=np.zeros_like(q), where=q > 0.0)
     compliance = Compliance(kernel, (60, 60))
-    result = lifted(gap, compliance, 0.1, most)
+    result = contact_pressures(gap, compliance, 0.1, most)
     assert result is not None
     assert (result.pressure >= 0.0).all()
     assert (result.pressure[:, :4] == 0.0).all()
