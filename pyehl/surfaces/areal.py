@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers of a height map by their ISO 25178-2 names."""
+"""Areal surface texture parameters of a height map (ISO 25178-2)."""
 
 import math
 from dataclasses import dataclass
@@ -18,32 +18,32 @@ AREAL_NAMES = {
     "Sdq": ("-", "root mean square gradient"),
     "Str": ("-", "texture aspect ratio; 1: no lay"),
 }
-"""Unit and meaning of each number of :func:`areal_numbers`."""
+"""Unit and meaning of each parameter of :func:`areal_numbers`."""
 
 DECAY = 0.2
-"""Height of the autocorrelation at which ISO 25178-2 takes its lengths."""
+"""Autocorrelation at which ISO 25178-2 measures the correlation lengths."""
 
 ANGLES = 180
 
 BLOCK = 2**16
-"""Points of a map that are processed at a time."""
+"""Number of points of a map that are processed at a time."""
 
 
 @dataclass(frozen=True, slots=True)
 class Extent:
-    """Roughness of a map in three numbers."""
+    """Rms height, peak and slope of a map."""
 
-    rms: float  # of the heights about their mean [m]
+    rms: float  # rms height about the mean [m]
     peak: float  # largest distance of a height from the mean [m]
     slope: float  # rms gradient, from differences of neighbours [-]
 
 
 def extent(heights: Array, pixel: tuple[float, float]) -> Extent:
-    """Rms, peak and slope of the points of a map that are not missing; NaN if all are.
+    """Rms, peak and slope of the valid points of a map; NaN if all points are missing.
 
     Heights (nx, ny) [m], NaN where missing; pixel size along x and y [m].
     """
-    # a few lines at a time: a map may be large
+    # a block of lines at a time: a map may be large
     lines = max(1, BLOCK // heights.shape[1])
     mean = float(heights.mean())
     if math.isnan(mean):
@@ -80,10 +80,9 @@ def extent(heights: Array, pixel: tuple[float, float]) -> Extent:
 
 
 def areal_numbers(heights: Array, pixel: tuple[float, float]) -> dict[str, float]:
-    """Sq, Sa, Sz, Ssk, Sku, Sdq and Str of a map, about its mean plane z = mean.
+    """Sq, Sa, Sz, Ssk, Sku, Sdq and Str of a map about its mean, in the units of `AREAL_NAMES`.
 
-    Heights (nx, ny) [m], none missing, levelled; pixel size along x and y [m]. In the units of
-    `AREAL_NAMES`.
+    Heights (nx, ny) [m], none missing, levelled; pixel size along x and y [m].
     """
     z = heights - heights.mean()
     spread = extent(heights, pixel)
@@ -103,10 +102,10 @@ def areal_numbers(heights: Array, pixel: tuple[float, float]) -> dict[str, float
 def texture_aspect_ratio(heights: Array, pixel: tuple[float, float]) -> float:
     """Str of ISO 25178-2: shortest over longest distance at which the autocorrelation is 0.2.
 
-    The autocorrelation is that of the map about its mean, each lag over the points that overlap,
-    up to half of the map. A direction in which it never falls to 0.2 enters with the largest
-    lag, so that the Str of a perfect lay is an upper bound and not zero. Heights (nx, ny)
-    [m], none missing; pixel size along x and y [m].
+    The autocorrelation is that of the map about its mean, each lag averaged over the overlap, for
+    lags up to half of the map. A direction in which it never falls to 0.2 counts with the largest
+    lag, so that the Str of a perfect lay is an upper bound and not zero. Heights (nx, ny) [m], none
+    missing; pixel size along x and y [m].
     """
     nx, ny = heights.shape
     z = heights - heights.mean()

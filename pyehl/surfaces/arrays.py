@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a reader finds in a file of heights: `.npy` arrays, encodings of text, and its memory."""
+"""Result of a reader of heights; units, `.npy` arrays, text encodings and the memory check."""
 
 import codecs
 import logging
@@ -18,10 +18,10 @@ from pyehl.types import Array
 Sizes = tuple[float | None, float | None]
 
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-"""Metres in the units of `surface.height_unit` and `surface.lateral_unit`."""
+"""Units of `surface.height_unit` and `surface.lateral_unit` in metres."""
 
-# Metres in the units that headers name. Unicode has two characters for a micro sign; in a file of
-# another encoding it may be unreadable
+# Units in metres as headers spell them. Unicode has two micro signs; in a file of another encoding
+# the sign may be unreadable
 _SPELT = {
     r"nm|nanomet(?:er|re)s?|ナノメートル": 1e-9,
     r"[uµμ\ufffd]m|microns?|micromet(?:er|re)s?|mikrometer|マイクロメートル": 1e-6,
@@ -32,54 +32,54 @@ _SPELT = {
     r"m|met(?:er|re)s?": 1.0,
 }
 UNIT = f"(?:{'|'.join(_SPELT)})"
-"""Regular expression of a unit of length, without regard to case."""
+"""Regular expression of a unit of length, to be matched without regard to case."""
 _WHOLE = {re.compile(spelt, re.IGNORECASE): metres for spelt, metres in _SPELT.items()}
 
 
 def unit_of(text: str) -> float | None:
-    """Metres in a unit of length as headers spell it; None for another word."""
+    """Return a unit of length, as headers spell it, in metres; None for another word."""
     word = text.strip().strip("()[]")
-    # Mm and MM in the header of an instrument are millimetres
+    # Mm and MM in a header mean millimetres
     result = (metres for spelt, metres in _WHOLE.items() if spelt.fullmatch(word))
     return next(result, None)
 
 
 @dataclass(slots=True)
 class Found:
-    """A height map as its file has it, with what the file states of units and size."""
+    """A height map as stored in its file, with the units and the size that the file states."""
 
-    # (nx, ny) in the numbers of the file, NaN where missing
+    # (nx, ny) in the unit of the file, NaN where missing
     heights: Array
-    # Metres in the unit of these numbers; None where the file names none
+    # That unit [m]; None if the file names none
     height_unit: float | None = None
-    # Along x and y: [m], or in the numbers of the file; None where the file has no size
+    # Size along x and y, in m or in the unit of the file; None if the file has no size
     size: Sizes = (None, None)
     size_in_metres: bool = True
-    # Whether the unit of the size must be given, and is not that of the heights by default
+    # Whether the user must give the unit of the size; else it is by default that of the heights
     ask_lateral_unit: bool = False
     # Whether it is an array, without information on its origin
     is_array: bool = False
     is_periodic: bool = False
     channel: str = ""
     notes: list[str] = field(default_factory=list)
-    # Reason for a missing size, if other than that the file has none
+    # Reason for a missing size, unless the file simply has none
     no_size: str = ""
 
 
 SAMPLE = 2**16
-"""Bytes that identify the encoding of a file."""
+"""Number of bytes that are examined to find the encoding of a file."""
 _MARKS = {
     codecs.BOM_UTF8: "utf-8-sig",
     codecs.BOM_UTF32_LE: "utf-32",
     codecs.BOM_UTF16_LE: "utf-16",
     codecs.BOM_UTF16_BE: "utf-16",
 }
-# Control characters of a text: tabs, ends of lines and pages, and the end of a DOS file
+# Control characters of text: tab, ends of lines and pages, and the end of a DOS file
 _CONTROL = set(b"\t\n\v\f\r\x1a")
 
 
 def encoding_of(path: Path) -> str | None:
-    """Find the encoding of a text by its first bytes; None if it is no text."""
+    """Find the encoding of a text file from its first bytes; None if it is not text."""
     with path.open("rb") as stream:
         first = stream.read(SAMPLE)
     for mark, name in _MARKS.items():
@@ -87,7 +87,7 @@ def encoding_of(path: Path) -> str | None:
             return name
     half = len(first) // 2
     for zeros, others, name in ((1, 0, "utf-16-le"), (0, 1, "utf-16-be")):
-        # text of digits has a zero in every pair of bytes
+        # in UTF-16, ASCII text has a zero in every pair of bytes
         if first[zeros::2].count(0) > 0.8 * half > 0 and not first[others::2].count(0):
             return name
     if any(byte < 32 and byte not in _CONTROL for byte in first):
@@ -100,18 +100,18 @@ def encoding_of(path: Path) -> str | None:
 
 
 def lines_of(path: Path, encoding: str) -> Iterator[tuple[int, str]]:
-    """Lines of a text without their ends, with their numbers from 1."""
+    """Yield the lines of a text file without line ends, numbered from 1."""
     with path.open(encoding=encoding, errors="replace") as lines:
         for number, line in enumerate(lines, 1):
-            # the mark of the order of bytes, where files were joined
+            # concatenated files have byte order marks inside
             yield number, line.rstrip("\r\n\x1a\ufeff").lstrip("\ufeff")
 
 
 WORKING_COPIES, PREDICTION_COPIES = 12, 28
-"""Arrays of the size of the map that its preparation holds at once, and of the size of a generated
-tile that a prediction holds at once, spectra included."""
+"""Peak number of arrays of the size of the map in its preparation, and of the size of a generated
+tile in a prediction, spectra included."""
 LARGE = 1e9
-"""Bytes from which on the need is reported."""
+"""Memory above which the need is reported [bytes]."""
 
 _LOG = logging.getLogger(__name__)
 
@@ -126,9 +126,9 @@ def check_pixels(
 ) -> None:
     """Refuse a surface whose processing needs more than the free memory.
 
-    A map (nx, ny), called `origin`, of which a tile has `tiles` times as many pixels (4:
-    mirrored), and so many copies are held at once; `remedy`: what needs less. NoMemoryError with
-    the bytes needed and free.
+    The surface `origin` has `pixels` (nx, ny); its tile has `tiles` times as many (4: mirrored), of
+    which `copies` arrays are held at once; `remedy` names what needs less. NoMemoryError with the
+    bytes needed and free.
     """
     need = 8.0 * pixels[0] * pixels[1] * tiles * copies
     images = " with their mirror images" if tiles > 1 else ""
@@ -142,9 +142,9 @@ def check_pixels(
 
 
 def read_npy(path: Path) -> Array:
-    """Heights (nx, ny) of a `.npy` file, in the numbers of the file.
+    """Read the heights (nx, ny) of a `.npy` file, as they are stored.
 
-    InputError if it is no matrix of real numbers, or its header is wrong.
+    InputError if it is no matrix of real numbers, or its header is invalid.
     """
     raw = mapped(path)
     if raw.ndim != 2 or raw.size == 0:
@@ -154,7 +154,7 @@ def read_npy(path: Path) -> Array:
 
 
 def mapped(path: Path) -> Array:
-    """Real numbers of a `.npy` file, of any shape and mapped from it; InputError for others."""
+    """Memory-map the real numbers of a `.npy` file, of any shape; InputError for other data."""
     with path.open("rb") as stream:
         first = stream.read(4)
     if first == b"PK\x03\x04":
@@ -164,12 +164,12 @@ def mapped(path: Path) -> Array:
             "surface.channel"
         )
     try:
-        # mapped, so that the header is checked before the data are read
+        # memory-mapped, so that the header is checked before the data are read
         raw = np.load(path, mmap_mode="r", allow_pickle=False)
     except (OSError, MemoryError):
         raise
     except Exception as error:
-        # a damaged header makes numpy raise whatever the parser of Python does
+        # for a damaged header numpy raises any error of the Python parser
         raise InputError(f"{path}: not a readable .npy file of numbers: {error}") from None
     real_numbers(raw, str(path))
     return raw

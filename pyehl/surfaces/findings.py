@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is not roughness in a prepared scan: form, offset lines, stitching steps, dust.
+"""Find artefacts in a prepared scan that are not roughness: form, line offsets, stitching, dust.
 
-Nothing is removed here. A finding states kind, size and place, and the key of a case that removes
-it, if there is one. Every limit lies far beyond the values of self-affine surfaces with or without
-a lay.
+Nothing is removed here. A finding states kind, size and position, and the key of a case that
+removes it, if there is one. All limits are far beyond the values of self-affine surfaces with or
+without a lay.
 """
 
 import math
@@ -19,7 +19,7 @@ from pyehl.surfaces.map_steps import DEGREES, MAD_TO_SIGMA, level
 from pyehl.types import Array, Mask
 
 SAMPLES = 512
-"""Most points of a line from which its offset is estimated."""
+"""Maximum number of points of a line from which its offset is estimated."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,9 +27,9 @@ class Finding:
     """A feature of a map that is not roughness."""
 
     kind: str  # 'form', 'line offsets', 'stitching step', 'dust', 'spikes'
-    text: str  # what it is, how large and where
+    text: str  # its description, with size and position
     remedy: str  # option of a case that removes it, 'surface.key=value'; '' if there is none
-    # Where it is on the map (x_min, x_max, y_min, y_max) [m]; empty: everywhere
+    # Its areas on the map (x_min, x_max, y_min, y_max) [m]; empty: everywhere
     places: tuple[tuple[float, float, float, float], ...] = ()
 
     def report(self) -> str:
@@ -38,7 +38,7 @@ class Finding:
 
     @property
     def summary(self) -> dict[str, object]:
-        """Return what ``summary.json`` holds of it."""
+        """Return its entry in ``summary.json``."""
         return {
             "kind": self.kind,
             "text": self.text,
@@ -48,9 +48,9 @@ class Finding:
 
 
 def line_steps(z: Array, axis: int, parts: int = 1) -> tuple[Array, float]:
-    """Median steps (parts, n - 1) from a line to the next along an axis, and their scatter.
+    """Median steps (parts, n - 1) from each line to the next along an axis, and the scatter.
 
-    The scatter of single steps about the median of their line, as a standard deviation.
+    The scatter is that of single steps about the median of their line, as a standard deviation.
     """
     lines = np.moveaxis(z, axis, 0)
     steps, deviations = [], []
@@ -65,24 +65,24 @@ def line_steps(z: Array, axis: int, parts: int = 1) -> tuple[Array, float]:
 
 
 STEP, BROAD, ABOVE, FEW = 12.0, 6.0, 3.0, 4
-"""Least height of a stitching step over the median step between two lines, over the rms of these
+"""Minimum height of a stitching step over the median step between two lines, over the rms of these
 steps without the `FEW` largest, and over the rms step between two points."""
 PARTS = 4
-"""Parts of a line that may have a stitching step each: stitched fields meet in corners."""
+"""Parts of a line that may each have a stitching step: stitched fields meet in corners."""
 DUST = 8.0
-"""Least height of dust above the median [standard deviations]."""
+"""Minimum height of dust above the median [standard deviations]."""
 HIGH = 6.0
-"""Least height of its top above its surroundings [standard deviations of the map without dust]."""
+"""Minimum height of its top above its surroundings [standard deviations of the rest]."""
 SPIKE = 12.0
-"""The same for spikes, whose few pixels may be as high by chance."""
+"""The same for spikes, whose few pixels may reach `HIGH` by chance."""
 REMEDY = {"dust": "surface.outliers=6", "spikes": "surface.outliers=8"}
-"""Options that remove those of them that stand out of their neighbourhood."""
-MIN_DUST, MOST_DUST = 5, 0.02
-"""Least pixels of a speck of dust (fewer are spikes), and its largest share of the map."""
+"""Options that remove those that stand out of their neighbourhood."""
+MIN_DUST, MAX_DUST = 5, 0.02
+"""Minimum number of pixels of a speck of dust (fewer: a spike), largest fraction of the map."""
 BLOCK = 32
-"""Pixels per side of the squares with whose median dust is compared."""
-MOST_NAMED = 3
-"""Steps and specks that are reported one by one."""
+"""Pixels per side of the blocks with whose median dust is compared."""
+MAX_LISTED = 3
+"""Number of steps or specks that are reported one by one."""
 
 
 def stitching(
@@ -94,7 +94,7 @@ def stitching(
     steps, _ = line_steps(z, axis, parts)
     centred = steps - np.median(steps, axis=1, keepdims=True)
     usual = MAD_TO_SIGMA * float(np.median(np.abs(centred)))
-    # surfaces with plateaus have few large steps between lines, which are broad otherwise
+    # plateaus give a narrow distribution of line steps with a broad tail: exclude the largest few
     few = np.sort(np.abs(centred), axis=1)[:, : -min(FEW, steps.shape[1] // 4) or None]
     limit = max(STEP * usual, BROAD * float(np.sqrt(np.mean(few**2))), ABOVE * _rms_step(z, axis))
     high = np.abs(centred) > limit
@@ -112,8 +112,8 @@ def stitching(
         for part in np.nonzero(high[:, j])[0]:
             ends = [corner[1 - axis] + (part + side) * width for side in (0, 1)]
             places.append((at, at, *ends) if axis == 0 else (*ends, at, at))
-    more = f" and {lines.size - MOST_NAMED} more" if lines.size > MOST_NAMED else ""
-    text = f"{', '.join(words[:MOST_NAMED])}{more}"
+    more = f" and {lines.size - MAX_LISTED} more" if lines.size > MAX_LISTED else ""
+    text = f"{', '.join(words[:MAX_LISTED])}{more}"
     cuts = sorted(corner[axis] + (int(j) + 1) * size for j in lines)
     crop = _one_side((corner[axis], *cuts, corner[axis] + z.shape[axis] * size), name)
     return Finding("stitching step", text, crop, tuple(places))
@@ -128,12 +128,12 @@ def _rms_step(z: Array, axis: int) -> float:
 
 
 def _top(values: Array) -> float:
-    """99th percentile of the modulus, on which dust and steps of a part have no effect."""
+    """99th percentile of the modulus, which dust and steps in a part do not affect."""
     return float(np.quantile(np.abs(values), 0.99))
 
 
 def _one_side(ends: Sequence[float], name: str) -> str:
-    """Option that leaves the longest part between the ends of a map and steps."""
+    """Return the option that crops a map to its longest part between edges and steps."""
     first = max(range(len(ends) - 1), key=lambda k: ends[k + 1] - ends[k])
     low, high = ends[first], ends[first + 1]
     options = [f"surface.crop_{name}_min={low:.6g}"] if low > ends[0] else []
@@ -142,7 +142,7 @@ def _one_side(ends: Sequence[float], name: str) -> str:
 
 
 def dust(z: Array, pixel: tuple[float, float], corner: tuple[float, float]) -> list[Finding]:
-    """Specks of several pixels that stand out, and spikes of fewer."""
+    """Find specks of several pixels that stand out, and spikes of fewer pixels."""
     specks, spread = _specks(z)
     large, small = ([speck for speck in specks if speck.is_dust == yes] for yes in (True, False))
     return [
@@ -153,9 +153,9 @@ def dust(z: Array, pixel: tuple[float, float], corner: tuple[float, float]) -> l
 
 
 def dust_points(z: Array, limit: float) -> Mask:
-    """Where on a levelled map specks of several pixels are, with a margin of one pixel.
+    """Mark dust on a levelled map, with a margin of one pixel.
 
-    Those that stand out by more than `limit` standard deviations.
+    Marked are specks of several pixels that stand out by more than `limit` standard deviations.
     """
     points = np.zeros(z.shape, dtype=bool)
     specks, spread = _specks(z)
@@ -169,7 +169,7 @@ def dust_points(z: Array, limit: float) -> Mask:
 class _Speck:
     """A group of adjacent raised pixels."""
 
-    height: float  # above what is around it [m]
+    height: float  # above its surroundings [m]
     box: tuple[slice, slice]
     points: Mask  # in the box
 
@@ -183,7 +183,7 @@ class _Speck:
 
 
 def _raised(z: Array) -> tuple[Mask, float]:
-    """Pixels that stand out, and the spread of all others [m]; 0: there is none."""
+    """Pixels that stand out, and the spread of all others [m]; 0: a flat map."""
     nx, ny = z.shape
     raised = np.zeros(z.shape, dtype=bool)
     spreads, tops = [], []
@@ -202,14 +202,14 @@ def _raised(z: Array) -> tuple[Mask, float]:
         raised[block] = z[block] - median > DUST * spread
         rest = z[block][~raised[block]] - median
         count, square = count + rest.size, square + float(np.dot(rest, rest))
-    # plateaus with valleys are narrow in the median and broad otherwise
+    # for plateaus with valleys the median deviation is much smaller than the rms
     return raised, max(spread, math.sqrt(square / max(1, count)))
 
 
 def _specks(z: Array) -> tuple[list[_Speck], float]:
-    """Group raised pixels that are high enough and not long, highest first; the spread [m]."""
+    """Group raised pixels into specks that are high and compact, highest first; the spread [m]."""
     raised, spread = _raised(z)
-    if not raised.any() or raised.mean() > MOST_DUST:
+    if not raised.any() or raised.mean() > MAX_DUST:
         return [], spread
     label, _ = scipy.ndimage.label(raised, structure=np.ones((3, 3)))
     specks = []
@@ -231,7 +231,7 @@ def _named(
     pixel: tuple[float, float],
     corner: tuple[float, float],
 ) -> Finding:
-    """Give the finding of specks of a kind, the highest first."""
+    """Return the finding of the specks of a kind, which are sorted by height."""
     first = specks[0]
     x, y = (
         c + 0.5 * (b.start + b.stop) * p for c, b, p in zip(corner, first.box, pixel, strict=True)
@@ -254,18 +254,18 @@ def _named(
     return Finding(kind, text, REMEDY[kind], places)
 
 
-MOST_FORM = 0.5
-"""Share of the variance in a polynomial of degree 2 from which on it is reported."""
+MIN_FORM = 0.5
+"""Fraction of the variance in a tilt or curvature above which it is reported."""
 FOLD = 0.5
-"""Change of the slope from edge to edge over that of the form: below it the map is a wave."""
+"""Change of the slope from edge to edge over that of the form, below which the map is a wave."""
 ALIKE = 2.0
-"""Largest ratio of the form of half a map to that of the whole."""
+"""Largest ratio of the form of half a map to that of the whole map."""
 LINE_OFFSETS = 0.5
-"""Median step to the next line over the scatter of the steps along the lines, from which on lines
-are offset. Of isotropic surfaces of 128 points it is 0.1 to 0.2."""
+"""Median step to the next line over the scatter of the steps along the lines, above which lines
+are offset. For isotropic surfaces of 128 points it is 0.1 to 0.2."""
 INDEPENDENT = -0.25
-"""Correlation of a step with the next one below which lines are offset independently: -0.5 for
-independent offsets, 0.5 for the lay of a ground surface (Hurst exponent 0.8), -0.24 for 0.3."""
+"""Correlation of successive steps below which lines are offset independently: -0.5 for independent
+offsets, 0.5 for the lay of a ground surface with a Hurst exponent of 0.8, -0.24 with 0.3."""
 
 
 def find(
@@ -278,14 +278,14 @@ def find(
 ) -> tuple[Finding, ...]:
     """Find what a map (nx, ny) [m], none missing, has besides roughness.
 
-    Pixel size along x and y [m]; `taken`: the form that was removed; `periodic`: the map counts
-    as a tile that can be repeated; `corner`: where it lies on the map as read [m].
+    Pixel size along x and y [m]; `taken`: the form that was removed; `periodic`: the map is
+    repeated as a tile; `corner`: its position on the map as read [m].
     """
     result = [
         _form(heights, pixel, taken, periodic=periodic),
         *(_lines(heights, axis) for axis in (0, 1)),
     ]
-    # a form, or offsets of all lines, would hide what is small
+    # a form, or offsets of all lines, would hide small artefacts
     rest = heights
     if result[0] is not None:
         rest = heights.copy()
@@ -297,7 +297,7 @@ def find(
 
 
 def _form(z: Array, pixel: tuple[float, float], taken: str, *, periodic: bool) -> Finding | None:
-    """Tilt or curvature that hold most of the variance."""
+    """Find a tilt or curvature that holds most of the variance."""
     if taken == "curvature":
         return None
     nx, ny = z.shape
@@ -315,7 +315,7 @@ def _form(z: Array, pixel: tuple[float, float], taken: str, *, periodic: bool) -
             return None
         form = coarse - rest
         share = float(form.var()) / variance
-        if share < MOST_FORM or not _even(coarse, form, what):
+        if share < MIN_FORM or not _even(coarse, form, what):
             continue
         if periodic and not _folds(coarse, form):
             continue
@@ -328,14 +328,14 @@ def _form(z: Array, pixel: tuple[float, float], taken: str, *, periodic: bool) -
 
 
 def _coarse(z: Array) -> Array:
-    """Means over blocks of a large map."""
+    """Return the means over blocks of a large map."""
     a, b = (max(1, n // SAMPLES) for n in z.shape)
     z = z[: z.shape[0] // a * a, : z.shape[1] // b * b]
     return np.asarray(z.reshape(z.shape[0] // a, a, z.shape[1] // b, b).mean(axis=(1, 3)))
 
 
 def _even(z: Array, form: Array, what: str) -> bool:
-    """Whether both halves of a map have the form of the whole, unlike those of a long wave."""
+    """Whether both halves of a map have the form of the whole, which those of a wave have not."""
     degree = DEGREES[what]
     for axis in (0, 1):
         across, bare = z.mean(axis=1 - axis), form.mean(axis=1 - axis)
@@ -351,7 +351,7 @@ def _even(z: Array, form: Array, what: str) -> bool:
 
 
 def _folds(z: Array, form: Array) -> bool:
-    """Whether a repeated map has an edge where its form ends, unlike a wave."""
+    """Whether a repeated map has a fold or step at its edges, which a wave has not."""
     for axis in (0, 1):
         across, bare = z.mean(axis=1 - axis), form.mean(axis=1 - axis)
         n = across.size
@@ -394,7 +394,7 @@ def _percent(share: float) -> str:
 
 
 def _lines(z: Array, axis: int) -> Finding | None:
-    """Offsets in height of the lines along the other axis, one scan each."""
+    """Find height offsets between scan lines, which run along the other axis."""
     (steps,), scatter = line_steps(z, axis)
     size = float(np.sqrt(np.mean(np.square(steps))))
     if steps.size < 8 or not size > LINE_OFFSETS * scatter or not size > 0.0:

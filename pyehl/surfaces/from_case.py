@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The surface of a resolved case."""
+"""Make or read the surface of a resolved case."""
 
 import math
 from collections.abc import Mapping
@@ -27,15 +27,15 @@ from pyehl.types import Settings
 Contact = OperatingPoint | LineContact
 
 GROUPS = ("surface", "second_surface")
-"""Groups of a case that describe a surface each."""
+"""Groups of a case that each describe a surface."""
 
 FEWER = "fewer pixels: surface.pixels"
-# Least pixels per wavelength, and per Hertz radius, of a sampled harmonic pattern
+# Minimum number of pixels per wavelength, and per Hertz radius, of a sampled harmonic pattern
 HARMONIC_PIXELS = 32
 RADIUS_PIXELS = 64
-# Largest tiles and maps of which a few are cached [pixels]
-KEPT_PIXELS = 2**20
-# Keys by which a map is read, and those that determine a fractal tile
+# Largest tiles and maps that are cached [pixels]
+CACHED_PIXELS = 2**20
+# Keys that determine how a map is read, and those that determine a fractal tile
 SCAN = "file length_x length_y channel height_unit lateral_unit profile pixels seed".split()
 FRACTAL = (
     "pixels length_x length_y rms_height hurst rolloff_wavenumber lay_ratio seed modulus".split()
@@ -45,7 +45,7 @@ FRACTAL = (
 def rough_groups(settings: Settings) -> list[str]:
     """Name the groups of a resolved case that describe a rough surface.
 
-    A wave or feature of zero height beside another surface is left out, as in the solver.
+    A wave or feature of zero height beside another surface is omitted, as in the solver.
     """
     rough = [name for name in GROUPS if settings.get(name, {}).get("kind", "smooth") != "smooth"]
     heights = ("amplitude", "amplitude_over_film", "height_m")
@@ -59,7 +59,7 @@ def rough_groups(settings: Settings) -> list[str]:
 
 
 def one_rough(settings: Settings) -> Settings:
-    """Give a resolved case whose only rough surface is that of the group ``surface``."""
+    """Return the case with its surfaces exchanged if only ``second_surface`` is rough."""
     if rough_groups(settings) != ["second_surface"]:
         return settings
     return {
@@ -81,26 +81,26 @@ def harmonic_amplitude(settings: Settings, operating: Contact, film: float) -> f
 def from_settings(settings: Settings, operating: Contact, film: float) -> Topography:
     """Make or read the surface of a resolved case.
 
-    `film` is the central film h_c [m], of which the amplitude of a harmonic pattern may be a
-    share. InputError if the surface is smooth or the map is not usable; OSError if it cannot be
+    `film` is the central film h_c [m], to which the amplitude of a harmonic pattern may be
+    relative. InputError if the surface is smooth or the map is not usable; OSError if it cannot be
     opened.
     """
     return finished(whole(settings, operating, film), settings["surface"])
 
 
 def whole(settings: Settings, operating: Contact, film: float) -> Topography:
-    """Give the surface on its first track, with all of its waves; else as :func:`from_settings`."""
+    """Return the surface on its first track, unfiltered; else as :func:`from_settings`."""
     surface = settings["surface"]
     kind = str(surface["kind"])
     if kind == "fractal":
-        if int(surface["pixels"]) ** 2 > KEPT_PIXELS:
+        if int(surface["pixels"]) ** 2 > CACHED_PIXELS:
             return _fractal(surface)
-        return _kept_fractal(*(surface[key] for key in FRACTAL))
+        return _cached_fractal(*(surface[key] for key in FRACTAL))
     if kind == "harmonic":
         shares = (float(surface["wavelength_x"]), float(surface["wavelength_y"]))
         transverse = isinstance(operating, LineContact) and shares[1] >= TRANSVERSE
         if transverse:
-            # a surface that is constant along a line may have any period there
+            # a surface that is constant along a line may have any period along it
             shares = shares[0], shares[0]
         # a long wave is sampled as finely as the contact requires, too
         pixels = tuple(2 * math.ceil(max(HARMONIC_PIXELS, RADIUS_PIXELS * s) / 2) for s in shares)
@@ -124,21 +124,21 @@ def whole(settings: Settings, operating: Contact, film: float) -> Topography:
 
 
 def _map(surface: Mapping[str, Any]) -> Topography:
-    """Tile of a map; that of a file of a usual size is cached until the file changes."""
+    """Tile of a map; unless the file is large it is cached until the file changes."""
     options = Options.from_settings(surface)
     try:
         state = Path(str(surface["file"])).stat()
     except OSError as error:
         raise FileError(f"{surface['file']}: cannot read: {error.strerror}") from error
-    if state.st_size > 8 * KEPT_PIXELS:
+    if state.st_size > 8 * CACHED_PIXELS:
         return tile_of(scan_of(surface), options)
     place = tuple((key, surface[key]) for key in SCAN if key in surface)
     place += (("detrend", options.detrend),)
-    return _kept_map(place, state.st_mtime_ns, state.st_size, options)
+    return _cached_map(place, state.st_mtime_ns, state.st_size, options)
 
 
 @lru_cache(maxsize=4)
-def _kept_map(
+def _cached_map(
     place: tuple[tuple[str, Any], ...], changed: int, size: int, options: Options
 ) -> Topography:
     """Tile of a map, cached by the path and state of its file and its preparation."""
@@ -152,7 +152,7 @@ def _read_only(made: Topography) -> Topography:
 
 
 @lru_cache(maxsize=4)
-def _kept_fractal(*values: Any) -> Topography:  # noqa: ANN401
+def _cached_fractal(*values: Any) -> Topography:  # noqa: ANN401
     return _fractal(dict(zip(FRACTAL, values, strict=True)))
 
 
@@ -161,14 +161,14 @@ def _fractal(surface: Mapping[str, Any]) -> Topography:
     check_pixels(
         f"surface.pixels = {pixels}", (pixels, pixels), copies=PREDICTION_COPIES, remedy=FEWER
     )
-    # all but the pixels at one end, the seed and the modulus at the other
+    # all keys but the pixels in front, and the seed and the modulus at the end
     numbers = {name: float(surface[name]) for name in FRACTAL[1:-2]}
     seed, modulus = int(surface["seed"]), str(surface["modulus"])
     return _read_only(fractal(pixels, **numbers, seed=seed, modulus=modulus))
 
 
 def scan_of(surface: Mapping[str, Any]) -> Scan:
-    """Read the map of the group ``surface``, or its profile; a length of 0 is that of the file."""
+    """Read the map or profile of the group ``surface``; a length of 0 means that of the file."""
     s = Keys.of(surface)
     path, lengths = s.file, (s.length_x or None, s.length_y or None)
     if s.profile != "none":
@@ -187,21 +187,21 @@ def scan_of(surface: Mapping[str, Any]) -> Scan:
 
 
 def profile_of(surface: Mapping[str, Any]) -> Profile:
-    """Read the profile of the group ``surface``; a length of 0 is that of the file."""
+    """Read the profile of the group ``surface``; a length of 0 means that of the file."""
     s = Keys.of(surface)
-    # m is the default of the key: no profile has heights in m
+    # the default m of the key means not given: no profile has heights in m
     unit = s.height_unit if s.height_unit != "m" else None
     return read_profile(s.file, s.length_x or None, unit)
 
 
 def tile_of(scan: Scan, options: Options = NEUTRAL) -> Topography:
-    """Prepare a map, see :func:`pyehl.surfaces.prepare.prepare`; the tile has the record."""
+    """Prepare a map (:func:`pyehl.surfaces.prepare.prepare`); the tile has the preparation."""
     made = prepare(scan, options)
     return Topography(made.tile, made.lengths, scan.origin, None, made)
 
 
 def moved(tile: Topography, surface: Mapping[str, Any]) -> Topography:
-    """Put a tile on its track: the line at y = `surface.track` [m] passes the centre."""
+    """Shift a tile so that its line at y = `surface.track` [m] passes the centre."""
     track = Keys.of(surface).track
     if not track:
         return tile
@@ -211,18 +211,18 @@ def moved(tile: Topography, surface: Mapping[str, Any]) -> Topography:
 
 
 def finished(tile: Topography, surface: Mapping[str, Any]) -> Topography:
-    """Put a tile on its track and cut its spectrum, as the group ``surface`` of a case states.
+    """Shift a tile to its track and filter it, as the group ``surface`` of a case specifies.
 
-    The solver cuts the spectrum of its surfaces itself.
+    The solver filters its surfaces itself.
     """
     s = Keys.of(surface)
     return moved(filtered(tile, s.shortest_wavelength, s.longest_wavelength, s.filter), surface)
 
 
 def without_spikes(surface: Topography, threshold: float, group: Mapping[str, Any]) -> Topography:
-    """Prepare the tile of a map again with a threshold of `surface.outliers` (`spikes.prominence`).
+    """Prepare the tile of a map again with a threshold of `surface.outliers`.
 
-    InputError if it was not prepared from a map, or cannot be.
+    InputError if it was not prepared from a map, or the preparation fails.
     """
     made = surface.preparation
     if made is None:
@@ -231,10 +231,10 @@ def without_spikes(surface: Topography, threshold: float, group: Mapping[str, An
 
 
 def track_offsets(surface: Topography, tracks: int) -> list[float]:
-    """How far the tracks of a surface lie from the present one, equally spaced [m].
+    """Return the distances of equally spaced tracks of a surface from the present one [m].
 
-    Over the width of the tile; of a mirrored one over that of the map, whose mirror image has the
-    same tracks again.
+    They extend over the width of the tile; for a mirrored one over that of the map, whose mirror
+    image repeats its tracks.
     """
     made = surface.preparation
     if made is None or made.options.edges != "mirror":

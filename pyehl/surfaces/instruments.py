@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files of instruments, by the package SurfaceTopography (extra ``surfaces``)."""
+"""Read files of instruments with the package SurfaceTopography (extra ``surfaces``)."""
 
 import io
 import logging
@@ -15,32 +15,32 @@ from pyehl.surfaces.arrays import Found, check_pixels
 from pyehl.surfaces.variants import data_fields, nms_missing, plain_tmd, plain_x3p
 
 INSTALL = "pip install 'pyehl[surfaces]', or pip install SurfaceTopography"
-ELSE = "; save the heights in m as .npy or text, and give surface.length_x and surface.length_y"
+ADVICE = "; save the heights in m as .npy or text, and give surface.length_x and surface.length_y"
 HEAD = 512
-"""Bytes that identify the format of a file."""
-# Formats without a mark at their beginning: their readers accept any file of the right length
+"""Number of first bytes that identify the format of a file."""
+# Formats without a magic number: their readers accept any file of the right length
 UNMARKED = {"nms": ".nms", "hgt": ".hgt"}
-# Formats of plain text, which is read here line by line, see pyehl.surfaces.text_map
+# Formats of plain text, which pyehl.surfaces.text_map reads line by line
 TEXT = {"asc", "xyz"}
-# Files that a package reports as damaged though they are not, by their suffix
+# By suffix, converters of valid files that the package reports as damaged
 VARIANTS: dict[str, Callable[[bytes], bytes | None]] = {".x3p": plain_x3p, ".tmd": plain_tmd}
-# A library that tries formats logs each failure; without a handler that ends on the terminal
+# These libraries log each format that they try and fail; without a handler it goes to the terminal
 for _name in ("tifffile", "SurfaceTopography"):
     logging.getLogger(_name).addHandler(logging.NullHandler())
 
 
 class UnknownFormatError(InputError):
-    """A file is of no format that SurfaceTopography knows."""
+    """SurfaceTopography does not know the format of a file."""
 
 
 def read_instrument(path: Path, channel: str = "", text: bytes | None = None) -> Found:
-    """Heights (nx, ny) of one channel of an instrument file, NaN where missing.
+    """Read the heights (nx, ny) of one channel of an instrument file, NaN where missing.
 
-    The channel is a name, or a number from 1; empty: the file's first height channel. `text` is
-    the file as plain text in UTF-8, where its lines were read already.
+    The channel is a name, or a number from 1; empty: the first height channel of the file. `text`
+    is the file as plain text in UTF-8, if its lines were read already.
 
-    InputError with the reason of the reader if the package is missing, the file is of no kind that
-    it knows, or damaged, has no such channel, or is a profile along a line.
+    InputError with the reason of the reader if the package is missing, or the format of the file is
+    unknown, or it is damaged, has no such channel, or is a profile along a line.
     """
     try:
         from SurfaceTopography.IO import (  # noqa: PLC0415 (heavy, and optional)
@@ -54,7 +54,7 @@ def read_instrument(path: Path, channel: str = "", text: bytes | None = None) ->
             f"not installed: {INSTALL}; or save the heights in m as .npy"
         ) from None
     try:
-        # messages of NumPy on damaged files go into the reason, or nowhere
+        # NumPy must not warn about damaged files
         with np.errstate(all="ignore"):
             if text is not None:
                 return _read(path, lookup_reader_by_format["asc"], io.BytesIO(text), channel)
@@ -65,7 +65,7 @@ def read_instrument(path: Path, channel: str = "", text: bytes | None = None) ->
         if _is_of_the_system(error):
             raise
         raise InputError(
-            f"{path}: cannot be read as a height map: {_reason(error)}{ELSE}"
+            f"{path}: cannot be read as a height map: {_reason(error)}{ADVICE}"
         ) from None
 
 
@@ -75,17 +75,16 @@ def _is_of_the_system(error: Exception) -> bool:
 
 
 def _source(path: Path) -> str | io.BytesIO:
-    """Place of a file, or what it states in the form that the package reads."""
+    """Path of a file, or its contents converted to the variant that the package reads."""
     plain = VARIANTS.get(path.suffix.lower())
     data = None if plain is None else plain(path.read_bytes())
     return str(path) if data is None else io.BytesIO(data)
 
 
 def _candidates(path: Path, readers: list[Any], match: Any) -> tuple[list[Any], bool]:  # noqa: ANN401
-    """Readers that may know a file, the likely ones first, and whether its format is known.
+    """Readers for a file, the likely ones first, and whether its format is known.
 
-    A file that begins with the mark of a format is of it; else one whose name ends as those of a
-    format is, unless another reader can read it.
+    The format is known from its magic number, or assumed from the suffix of the file name.
     """
     with path.open("rb") as stream:
         head = stream.read(HEAD)
@@ -106,7 +105,7 @@ def _candidates(path: Path, readers: list[Any], match: Any) -> tuple[list[Any], 
 def _first(
     path: Path, candidates: tuple[list[Any], bool], source: str | io.BytesIO, channel: str
 ) -> Found:
-    """Read by the first reader that can; else the reason of the most likely one."""
+    """Read with the first reader that succeeds; else raise the error of the most likely one."""
     readers, known = candidates
     reasons: list[str] = []
     for reader in readers:
@@ -121,15 +120,15 @@ def _first(
                 raise
             reasons.append(f"as {reader.name()}: {_reason(error)}")
     if known:
-        raise InputError(f"{path}: cannot be read as a height map: {reasons[0]}{ELSE}")
+        raise InputError(f"{path}: cannot be read as a height map: {reasons[0]}{ADVICE}")
     raise UnknownFormatError(
         f"{path}: cannot be read as a height map: it is of no format that SurfaceTopography knows"
-        f"{ELSE}"
+        f"{ADVICE}"
     )
 
 
 def _reason(error: Exception) -> str:
-    """Give what a reader reports, in one line."""
+    """Return the message of a reader in one line."""
     message = " ".join(str(error).split()).rstrip(".")
     if isinstance(error, KeyError):
         return f"there is no {message} in it" if message else "a part of it is missing"
@@ -141,7 +140,7 @@ def _reason(error: Exception) -> str:
 
 
 def _read(path: Path, reader_class: Any, source: str | io.BytesIO, channel: str) -> Found:  # noqa: ANN401
-    """Read a channel by one reader."""
+    """Read a channel with one reader."""
     with reader_class(source) as reader:
         channels = list(reader.channels)
         if not channels and reader_class.format() == "gwy":
@@ -174,7 +173,7 @@ def _read(path: Path, reader_class: Any, source: str | io.BytesIO, channel: str)
 
 
 def _bare(path: Path, wanted: str) -> Found:
-    """Heights of a Gwyddion file without units, of which one has to be given for x and y."""
+    """Read heights of a Gwyddion file without units; the user must give the lateral unit."""
     fields = data_fields(path.read_bytes())
     other = {name: field.get("si_unit_z") for name, field in fields.items()}
     names = [name for name, unit in other.items() if not unit or not unit[1].get("unitstr")]
@@ -201,7 +200,7 @@ def _bare(path: Path, wanted: str) -> Found:
 
 
 def _check_size(path: Path, shape: tuple[int, ...]) -> None:
-    """Refuse a map that is larger than the memory, or a header that lies about its size."""
+    """Refuse a map that is larger than the memory, or whose header states a wrong size."""
     try:
         check_pixels(str(path), (shape[0], shape[1]))
     except NoMemoryError:
@@ -220,9 +219,9 @@ def _check_size(path: Path, shape: tuple[int, ...]) -> None:
 def _pick(path: Path, channels: list[Any], default: Any, wanted: str) -> Any:  # noqa: ANN401
     listing = ", ".join(f"{n} '{c.name}'" for n, c in enumerate(channels, 1))
     if not wanted:
-        # the library's default is mostly, not always, the first that can serve
-        serving = [c for c in channels if c.dim == 2 and c.is_height_channel]
-        picked = default if default in serving or not serving else serving[0]
+        # the default of the library is not always a height map
+        maps = [c for c in channels if c.dim == 2 and c.is_height_channel]
+        picked = default if default in maps or not maps else maps[0]
     else:
         named = [c for c in channels if str(c.name) == wanted]
         if not named and wanted.isdigit() and 1 <= int(wanted) <= len(channels):

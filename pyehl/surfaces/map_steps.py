@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Steps of a preparation that need nothing but the map: cut, turn, level, fill, join its edges.
+"""Single steps of a preparation: crop, rotate, level, fill a map, join its edges, find spikes.
 
-A tile is repeated over and over. Where opposite edges of a map do not match, the heights jump, a
+A tile is repeated periodically. Where opposite edges of a map do not match, the heights jump: a
 step of infinite slope that the surface does not have, and at which the film breaks down.
 
-Missing points are filled by the smoothest surface that meets their edges. Spikes stand out of their
-neighbourhood: optical instruments give single pixels or small groups of them that lie micrometres
-off, at steep slopes and specks of dirt, and one of them is enough for film breakdown.
+Missing points are filled by a harmonic surface. Spikes stand out of their neighbourhood: at steep
+slopes and dirt optical instruments produce single pixels or small groups that are micrometres off,
+and one of them is enough for film breakdown.
 """
 
 from __future__ import annotations
@@ -23,20 +23,20 @@ from pyehl.types import Array, Mask
 MIN_PIXELS = 4
 
 LINES = 64
-"""Lines of a map that are processed at a time."""
+"""Number of lines of a map that are processed at a time."""
 
 MARGIN = 12
-"""Pixels around a map that repeat its edge, whose effect on splines falls by a factor of 3.7 a
-pixel."""
+"""Width of the padding of a map [pixels]; the effect of its end on the splines decays by a factor
+of 3.7 per pixel."""
 
 
 def cropped(
     heights: Array, pixel: tuple[float, float], bounds: tuple[float, float, float, float]
 ) -> Array:
-    """Part of a map (nx, ny) with a pixel size along x and y [m].
+    """Crop a map (nx, ny) with a pixel size along x and y [m].
 
     `bounds` are (x_min, x_max, y_min, y_max) [m], rounded to whole pixels; a maximum of 0 is the
-    far edge. InputError if the part reaches beyond the map, or less than 4 x 4 pixels are left.
+    far edge. InputError if they are beyond the map, or fewer than 4 x 4 pixels remain.
     """
     cuts = []
     for axis, name in enumerate("xy"):
@@ -60,13 +60,12 @@ def cropped(
 def rotated(
     heights: Array, pixel: tuple[float, float], angle: float
 ) -> tuple[Array, tuple[float, float]]:
-    """Map (nx, ny), none missing, turned about its middle, counter-clockwise seen from above.
+    """Rotate a map (nx, ny), none missing, about its centre, counter-clockwise seen from above.
 
-    What pointed along x points in the direction `angle` [degrees] afterwards: a lay along x turned
-    by 90 degrees lies across the motion. Quarter turns move pixels and change nothing else; any
-    other angle interpolates (cubic splines) and keeps the largest upright rectangle inside the
-    turned map, so that no heights from outside the map are needed. Its pixels [m] are then square,
-    the smaller of the two sizes.
+    The x direction of the map turns to `angle` [degrees]: a lay along x rotated by 90 degrees is
+    across the motion. Quarter turns only permute pixels; any other angle interpolates (cubic
+    splines) and keeps the largest upright rectangle inside the rotated map, so that no heights from
+    outside the map are needed. Its pixels [m] are then square, with the smaller of the two sizes.
     """
     quarters = round(angle / 90.0)
     if abs(angle - 90.0 * quarters) < 1e-9:
@@ -85,7 +84,7 @@ def rotated(
     scipy.ndimage.spline_filter(splines, order=3, output=splines, mode="mirror")
     turned = np.empty((nx, ny))
     for first in range(0, nx, LINES):
-        # a few lines at a time: the places alone would take twice the memory of the map
+        # a block of lines at a time: all coordinates would take twice the memory of the map
         x = (np.arange(first, min(nx, first + LINES)) - 0.5 * (nx - 1))[:, None] * step
         at = [
             (c * x + s * y) / pixel[0] + 0.5 * (splines.shape[0] - 1),
@@ -98,7 +97,7 @@ def rotated(
 
 
 def _inside(width: float, height: float, angle: float) -> tuple[float, float]:
-    """Sides of the largest upright rectangle inside a rectangle that is turned."""
+    """Sides of the largest upright rectangle inside a rotated rectangle."""
     s, c = abs(math.sin(angle)), abs(math.cos(angle))
     long, short = max(width, height), min(width, height)
     if short <= 2.0 * s * c * long or abs(s - c) < 1e-12:
@@ -114,7 +113,7 @@ DEGREES = {"centre": 0, "tilt": 1, "curvature": 2}
 
 
 def _factors(heights: Array, degree: int, valid: Mask | None) -> tuple[Array, Array, Array]:
-    """Give the polynomial nearest to a map as a product: powers of x, coefficients, powers of y."""
+    """Fit a polynomial; returns its factors: powers of x, coefficients, powers of y."""
     nx, ny = heights.shape
     good = valid
     if valid is None and np.isfinite(heights.sum()):
@@ -123,7 +122,7 @@ def _factors(heights: Array, degree: int, valid: Mask | None) -> tuple[Array, Ar
         good = np.isfinite(heights) if valid is None else valid & np.isfinite(heights)
         count = int(np.count_nonzero(good))
     powers = [(a, b) for a in range(degree + 1) for b in range(degree + 1 - a)]
-    # Sums over the map are products of matrices: the basis is a product of one in x and one in y
+    # the basis is separable in x and y, so that sums over the map are matrix products
     x = np.vander(np.linspace(-1.0, 1.0, nx), 2 * degree + 1, increasing=True)
     y = np.vander(np.linspace(-1.0, 1.0, ny), 2 * degree + 1, increasing=True)
     if good is None:
@@ -146,17 +145,17 @@ def _factors(heights: Array, degree: int, valid: Mask | None) -> tuple[Array, Ar
 
 
 def align_lines(heights: Array, along: str) -> None:
-    """Put the lines of a scan along x or y level with each other, in place.
+    """Remove the height offsets of the scan lines along x or y, in place.
 
-    The median height of each line above the plane of the map becomes 0. Points that are NaN stay
-    so. The part of the surface itself in its line medians is removed with the offsets: waves across
-    the lines that are as long as a line.
+    The median height of each line above the plane of the map becomes 0; NaN stays NaN. This also
+    removes what the surface itself contributes to the line medians: waves across the lines that are
+    constant along them.
     """
     axis = "xy".index(along)
     flat = heights.copy()
     level(flat, "tilt")
     with warnings.catch_warnings():
-        # a line without a point stays as it is
+        # a line without valid points stays as it is
         warnings.simplefilter("ignore", RuntimeWarning)
         offsets = np.nan_to_num(np.nanmedian(flat, axis=axis))
     heights -= np.expand_dims(offsets, axis)
@@ -165,10 +164,10 @@ def align_lines(heights: Array, along: str) -> None:
 def level(heights: Array, what: str, valid: Mask | None = None) -> None:
     """Remove the mean (`centre`), plane (`tilt`) or `curvature` of a map in place.
 
-    A least-squares polynomial over the points that count (`valid`; default: all that are numbers);
-    missing points stay missing. InputError if too few points are left to determine the polynomial.
+    The polynomial is a least-squares fit to the `valid` points (default: all that are finite);
+    missing points stay missing. InputError if too few points determine the polynomial.
     """
-    # the large parts are removed first, so that the rounding error is that of the remainder
+    # the mean is removed first, so that the rounding error is that of the remainder
     for degree in sorted({0, DEGREES[what]}):
         x, coefficient, y = _factors(heights, degree, valid)
         lines = coefficient @ y.T
@@ -178,21 +177,21 @@ def level(heights: Array, what: str, valid: Mask | None = None) -> None:
                 heights[part] -= power[:, np.newaxis] * line
 
 
-RIM = 0.1
-"""Share of each side over which 'window' tapers the heights."""
+TAPER = 0.1
+"""Fraction of the length at each edge over which 'window' tapers the heights."""
 
 
 def mirrored(heights: Array) -> Array:
-    """Tile (2 nx, 2 ny) of twice the size on each side: the map (nx, ny) and its mirror images.
+    """Return the tile (2 nx, 2 ny) of a map (nx, ny) and its mirror images.
 
-    Reflected about the middle between two pixels (the symmetry of a cosine transform), so that
-    every height occurs four times: mean, rms and every other number of the height distribution are
-    those of the map. Heights are continuous across every seam. The slope across a seam keeps its
-    magnitude and changes its sign, with one step of zero between: a fold, no jump. Its spectrum
-    falls with the fourth power of the wavenumber, no slower than that of a rough surface, that of
-    a jump with the second.
+    It is reflected about the midpoint between two pixels (the symmetry of a cosine transform), so
+    that every height occurs four times: mean, rms and the whole height distribution are those of
+    the map. Heights are continuous across every seam. The slope across a seam changes its sign but
+    not its magnitude, with one step of zero between: a fold, not a jump. The spectrum of a fold
+    decays as the fourth power of the wavenumber, at least as fast as that of a rough surface; that
+    of a jump as the second.
 
-    The middle of the map lies on the tile's row 0, so that it passes the centre of the contact.
+    The middle of the map is on row 0 of the tile, so that it passes the centre of the contact.
     """
     nx, ny = heights.shape
     half = ny // 2
@@ -205,16 +204,16 @@ def mirrored(heights: Array) -> Array:
 
 
 def unmirrored(i: int, j: int, shape: tuple[int, int]) -> tuple[int, int]:
-    """Pixel of the map (nx, ny) = `shape` that pixel (i, j) of its mirrored tile shows."""
+    """Return the pixel of a map (nx, ny) = `shape` for pixel (i, j) of its mirrored tile."""
     nx, ny = shape
     i, j = i % (2 * nx), (j + ny // 2) % (2 * ny)
     return (i if i < nx else 2 * nx - 1 - i), (j if j < ny else 2 * ny - 1 - j)
 
 
 def windowed(heights: Array) -> Array:
-    """Map tapered to its mean along its margin by a raised cosine over a tenth of each side.
+    """Taper a map to its mean along its edges by a raised cosine over a tenth of each side.
 
-    The inner part does not change; the margin loses roughness, so that the rms falls.
+    The inner part does not change; tapering reduces the rms height.
     """
     half = heights.shape[1] // 2
     mean = float(heights.mean())
@@ -227,15 +226,15 @@ def windowed(heights: Array) -> Array:
 
 
 def margin(shape: tuple[int, int]) -> int:
-    """Points (nx, ny) of a map that `windowed` tapers."""
+    """Count the points of a map (nx, ny) = `shape` that `windowed` tapers."""
     inside = [int(np.count_nonzero(_taper(n) == 1.0)) for n in shape]
     return shape[0] * shape[1] - inside[0] * inside[1]
 
 
 def _taper(n: int) -> Array:
-    """Tukey window of n points, zero half a pixel outside of both ends."""
+    """Tukey window of n points, zero half a pixel outside both ends."""
     distance = (np.minimum(np.arange(n), np.arange(n)[::-1]) + 0.5) / n
-    return np.where(distance < RIM, 0.5 - 0.5 * np.cos(np.pi * distance / RIM), 1.0)
+    return np.where(distance < TAPER, 0.5 - 0.5 * np.cos(np.pi * distance / TAPER), 1.0)
 
 
 def jump(heights: Array) -> float:
@@ -248,7 +247,7 @@ def jump(heights: Array) -> float:
         z = np.moveaxis(heights, axis, 0)
         square = 0.0
         for first in range(0, heights.shape[0], LINES):
-            # a few lines at a time; along x with the next one
+            # a block of lines at a time; along x with the line after it
             part = heights[first : first + LINES + (axis == 0)]
             steps = np.diff(part, axis=axis)
             square += float(np.einsum("ij,ij->", steps, steps))
@@ -259,19 +258,19 @@ def jump(heights: Array) -> float:
 
 
 MAX_MISSING = 0.1
-"""Largest share of a map that may be filled: beyond it the interpolated heights determine the
+"""Largest fraction of a map that may be filled: beyond it the interpolated heights determine the
 friction."""
 
 GOOD_BLOCKS, GOOD_PART, MIN_PART = 48, 0.02, 0.1
-"""Blocks per side in the search for a good part of a map, the share that may be missing in it, and
-its least share of the map."""
+"""Blocks per side in the search for a good part of a map, the fraction that may be missing in it,
+and its minimum fraction of the map."""
 SHOWN_COLUMNS, SHOWN_ROWS = 48, 20
-"""Most columns and lines of the sketch of missing points."""
+"""Maximum number of columns and lines of the sketch of missing points."""
 
 DIRECT_POINTS = 50_000
 TOLERANCE = 1e-10
 WINDOW = 5
-"""Pixels per side of the median that a point is compared with."""
+"""Pixels per side of the median filter with which a point is compared."""
 MAD_TO_SIGMA = 1.482602218505602
 """Standard deviation of a normal distribution over its median absolute deviation."""
 
@@ -279,12 +278,12 @@ MAD_TO_SIGMA = 1.482602218505602
 def filled(
     heights: Array, pixel: tuple[float, float], corner: tuple[float, float] = (0.0, 0.0)
 ) -> Array:
-    """Map whose missing points are harmonic: Laplace z = 0, z given on the edge of each hole.
+    """Fill missing points by the solution of Laplace's equation, with z given around each hole.
 
-    Five-point differences; at the edge of the map the slope across it is zero. A plane is
-    harmonic, so a hole in a plane is filled exactly (where it does not touch the edge). Heights
-    (nx, ny) [m], NaN where missing; pixel size along x and y, and `corner` of it on the map as read
-    [m]. InputError if more than a share of `MAX_MISSING` is missing: where, and which part is good.
+    Five-point differences; at the edge of the map the normal slope is zero. A plane is harmonic, so
+    a hole in a plane that does not touch the edge is filled exactly. Heights (nx, ny) [m], NaN
+    where missing; pixel size along x and y, and position of its `corner` on the map as read [m].
+    InputError if more than `MAX_MISSING` is missing; it shows where, and which part is good.
     """
     missing = ~np.isfinite(heights)
     count = int(np.count_nonzero(missing))
@@ -327,7 +326,7 @@ def filled(
 
 
 def _where(missing: Mask, pixel: tuple[float, float], corner: tuple[float, float]) -> str:
-    """Say which part of a map is nearly complete, if one is, and show where points are missing."""
+    """Name a part of a map that is nearly complete, if any, and show where points are missing."""
     blocks = [np.linspace(0, n, min(n, GOOD_BLOCKS) + 1).astype(int) for n in missing.shape]
     count = np.add.reduceat(missing.astype(int), blocks[0][:-1], axis=0)
     count = np.add.reduceat(count, blocks[1][:-1], axis=1)
@@ -341,11 +340,11 @@ def _where(missing: Mask, pixel: tuple[float, float], corner: tuple[float, float
             for end, at in (("min", good[2 * k]), ("max", good[2 * k + 1]))
         ]
         i, j, m, n = good
-        lost = 100 * count[i:j, m:n].sum() / area[i:j, m:n].sum()
+        absent = 100 * count[i:j, m:n].sum() / area[i:j, m:n].sum()
         of_all = 100 * area[i:j, m:n].sum() / missing.size
-        share = f"{of_all:.0f} % of the map, {lost:.1f} % missing"
+        share = f"{of_all:.0f} % of the map, {absent:.1f} % missing"
         text = f"\nexpected: such as {', '.join(part)}: {share}"
-    # X to the right, Y upwards; a letter is about twice as high as wide
+    # x to the right, y upwards; a character is about twice as high as wide
     rows = np.array_split(missing, min(missing.shape[1], SHOWN_ROWS), axis=1)
     lines = [
         "".join(
@@ -358,14 +357,14 @@ def _where(missing: Mask, pixel: tuple[float, float], corner: tuple[float, float
 
 
 def _largest_part(count: Array, area: Array) -> tuple[int, int, int, int] | None:
-    """Largest part of blocks with few missing points: first and last block along x and y."""
+    """Largest rectangle of blocks with few missing points: first and last block along x and y."""
     sums, areas = (np.pad(values.cumsum(0).cumsum(1), ((1, 0), (1, 0))) for values in (count, area))
     best, result = 0.0, None
     for i in range(count.shape[0]):
         for j in range(i + 1, count.shape[0] + 1):
-            lost, whole = sums[j] - sums[i], areas[j] - areas[i]
+            absent, whole = sums[j] - sums[i], areas[j] - areas[i]
             size = whole[np.newaxis, :] - whole[:, np.newaxis]
-            few = lost[np.newaxis, :] - lost[:, np.newaxis] <= GOOD_PART * size
+            few = absent[np.newaxis, :] - absent[:, np.newaxis] <= GOOD_PART * size
             size = np.where(few, size, 0.0)
             place = int(size.argmax())
             if size.flat[place] > best:
@@ -387,7 +386,7 @@ def _solve(matrix: scipy.sparse.csr_matrix, right: Array, guess: Array) -> Array
 
 
 def nearest(heights: Array) -> Array:
-    """Map whose missing points have the height of the nearest one that is not."""
+    """Fill missing points with the height of the nearest valid point."""
     missing = ~np.isfinite(heights)
     if not missing.any():
         return heights
@@ -396,37 +395,34 @@ def nearest(heights: Array) -> Array:
 
 
 def levelled(heights: Array) -> Array:
-    """Copy of a map without tilt and curvature, whose missing points have the nearest height."""
+    """Return a copy without tilt and curvature, its missing points filled by `nearest`."""
     z = heights.copy()
     level(z, "curvature")
     return nearest(z)
 
 
 def prominence(heights: Array) -> Array:
-    """Distance (nx, ny) of each point from the median around it, over the spread of these.
+    """Absolute distance (nx, ny) of each point from the median around it, over their spread.
 
-    Not negative.
-
-    The high-passed map is z minus the median of the 5 x 5 points around, after tilt and curvature
-    are taken off (on a plane each point is the median of those around); its spread is its median
-    absolute deviation times 1.4826, the standard deviation if it were normal, which spikes do not
-    change. Of normal noise 6e-7 of all points lie beyond 5, 1e-15 beyond 8. Heights (nx, ny) [m],
-    NaN where missing: 0 there. InputError if more than half of the map equals its median: then
-    there is no spread to compare with.
+    Tilt and curvature are removed, then the median of the surrounding 5 x 5 points is subtracted.
+    The spread is the median absolute deviation times 1.4826: the standard deviation of a normal
+    distribution, but insensitive to spikes. For normal noise 6e-7 of all points exceed 5, and 1e-15
+    exceed 8. Heights (nx, ny) [m]; the result is 0 where they are NaN. InputError if more than half
+    of the points equal their median: then the spread is zero.
     """
     missing = ~np.isfinite(heights)
     z = levelled(heights)
     largest = max(float(z.max()), -float(z.min()))
     above = np.empty(z.shape)
     for first in range(0, z.shape[0], LINES):
-        # a few lines at a time, with those around that their medians need
+        # a block of lines at a time, with the neighbours that the medians need
         part = z[max(0, first - WINDOW) : first + LINES + WINDOW]
         inner = slice(first - max(0, first - WINDOW), None)
         median = scipy.ndimage.median_filter(part, WINDOW, mode="nearest")[inner][:LINES]
         np.abs(z[first : first + LINES] - median, out=above[first : first + LINES])
     del z
     spread = MAD_TO_SIGMA * float(np.median(above[~missing], overwrite_input=True))
-    # the remainder of a plane is rounding error
+    # for a plane only rounding errors remain
     if not spread > 1e-12 * largest:
         raise InputError(
             "surface.outliers: half of the map or more is flat to the last digit, so that there "

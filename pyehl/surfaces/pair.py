@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two rough surfaces: their sum where they move together, and their correlation."""
+"""Two rough surfaces: their sum if they have the same velocity, and their correlation."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -13,15 +13,15 @@ from pyehl.surfaces.tile import MAX_PIXELS, Topography, resampled, shifted
 
 SAME = 1e-9
 """Relative difference below which two lengths or times count as equal."""
-MOST_TILES = 12
-"""Most tiles of a surface along an axis in a tile of the sum, as many as passages of a common
-period (:data:`pyehl.prediction.relative_positions.MOST_PASSAGES`)."""
+MAX_TILES = 12
+"""Maximum number of tiles of a surface along an axis in a tile of the sum, that of the passages in
+a common period (:data:`pyehl.prediction.relative_positions.MOST_PASSAGES`)."""
 
 
 def composite_rms(tiles: Sequence[Topography], together: Topography | None = None) -> float:
-    """Rms height [m] of one or two surfaces: of their sum where they move `together`.
+    """Composite rms height [m] of one or two surfaces; `together` is their sum, if it is known.
 
-    Else that of uncorrelated surfaces, as in the mean over all positions.
+    Else the surfaces are uncorrelated, as in the mean over all relative positions.
     """
     if together is None and len(tiles) == 1:
         return tiles[0].rms_height
@@ -29,7 +29,7 @@ def composite_rms(tiles: Sequence[Topography], together: Topography | None = Non
 
 
 def correlation(first: Topography, second: Topography, together: Topography | None) -> float:
-    """Correlation of the heights of two surfaces that move `together`; NaN where they do not."""
+    """Correlation of the heights of two surfaces with the sum `together`; NaN without a sum."""
     product = first.rms_height * second.rms_height
     if together is None or product == 0.0:
         return math.nan
@@ -40,26 +40,25 @@ def correlation(first: Topography, second: Topography, together: Topography | No
 def sum_of(
     groups: Sequence[Mapping[str, Any]], tiles: Sequence[Topography], hertz_radius: float
 ) -> Topography | None:
-    """Return the sum of the tiles of two groups of a case; None where they do not move together."""
+    """Return the sum of the tiles of two groups of a case; None if their velocities differ."""
     one, two = groups
     if float(one["velocity_ratio"]) != float(two["velocity_ratio"]):
         return None
-    way = float(two["x_start"]) - float(one["x_start"])
-    return merged(tiles[0], tiles[1], way * hertz_radius)
+    ahead = float(two["x_start"]) - float(one["x_start"])
+    return merged(tiles[0], tiles[1], ahead * hertz_radius)
 
 
 def merged(first: Topography, second: Topography, ahead: float) -> Topography | None:
-    """Return a tile with the heights of two, the second one `ahead` [m] along the motion.
+    """Return a tile with the sum of two, the second one `ahead` [m] along the motion.
 
-    It holds whole tiles of both. None if more than `MOST_TILES` of one are needed, or it has too
-    many pixels.
+    It holds whole tiles of both; None if it needs more than `MAX_TILES` of one, or too many pixels.
     """
     if ahead != 0.0:
         second = shifted(second, ahead)
     counts = [Fraction(b / a) for a, b in zip(first.size, second.size, strict=True)]
-    counts = [ratio.limit_denominator(MOST_TILES) for ratio in counts]
+    counts = [ratio.limit_denominator(MAX_TILES) for ratio in counts]
     for ratio, a, b in zip(counts, first.size, second.size, strict=True):
-        if ratio.numerator > MOST_TILES or not math.isclose(ratio * a, b, rel_tol=SAME):
+        if ratio.numerator > MAX_TILES or not math.isclose(ratio * a, b, rel_tol=SAME):
             return None
     nx, ny = (
         max(ratio.numerator * m, ratio.denominator * n)

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From a map as measured to a tile that can pass through a contact, one recorded step at a time.
+"""Prepare a measured map as a periodic tile, in recorded steps.
 
-The order is fixed: crop, sign, outliers, align_lines, fill, detrend, rotate, edges. Spikes
-are removed before the plane is fitted, which they would tilt, and holes filled before the map is
-turned; the edges are joined last. What the levelled map has besides roughness is in the record, see
-:mod:`pyehl.surfaces.findings`.
-What 'auto' means depends on what the file is, see :func:`pyehl.surfaces.working_map.defaults`.
+The order is fixed: crop, sign, outliers, align_lines, fill, detrend, rotate, edges. Spikes are
+removed before the plane is fitted, because they would tilt it, and holes are filled before the map
+is rotated; the edges are joined last. The record includes artefacts of the levelled map, see
+:mod:`pyehl.surfaces.findings`. :func:`pyehl.surfaces.working_map.defaults` resolves 'auto'.
 """
 
 import logging
@@ -30,30 +29,30 @@ LOG = logging.getLogger(__name__)
 
 SMALLER = "a part of the map: surface.crop_x_min, crop_x_max, crop_y_min, crop_y_max"
 RMS_BAND = (1e-10, 1e-4)
-"""Rms heights outside of it [m] are mistakes of units."""
+"""Rms heights outside this range [m] indicate a wrong unit."""
 
 LARGE = 2**22
-"""Heights of a map whose steps take seconds: each is reported before it begins."""
+"""Number of heights above which steps take seconds and are reported before they begin."""
 
-JUMP = 3.0
-"""A seam whose steps are more than this many times those inside is named in the record."""
+MAX_JUMP = 3.0
+"""Ratio of the steps across the seams to those inside above which the record has a note."""
 
 
 @dataclass(frozen=True, slots=True)
 class Preparation:
-    """How a tile was made."""
+    """A prepared tile, with the scan, the options and the record of its preparation."""
 
     scan: Scan = field(repr=False)
-    options: Options  # what was done, every 'auto' resolved
-    record: Record  # the same in numbers, step by step
-    prepared: Array = field(repr=False)  # (nx, ny) [m] map before its edges were joined
-    pixel: tuple[float, float]  # of it and of the tile [m]
+    options: Options  # options used, every 'auto' resolved
+    record: Record  # result of each step in numbers
+    prepared: Array = field(repr=False)  # map (nx, ny) [m] before its edges were joined
+    pixel: tuple[float, float]  # pixel size of map and tile [m]
     # The tile, mean zero: (nx, ny), or (2 nx, 2 ny) if mirrored [m]
     tile: Array = field(repr=False)
 
     @property
     def steps(self) -> tuple[Step, ...]:
-        """The steps that did something, in order."""
+        """The steps that changed the map, in order."""
         return self.record.steps
 
     @property
@@ -67,7 +66,7 @@ class Preparation:
         return self.prepared.shape[1] * self.pixel[1]
 
     def place(self, i: int, j: int) -> tuple[float, float]:
-        """Where on the prepared map pixel (i, j) of the tile is: x, y from its corner [m]."""
+        """Position x, y [m] of pixel (i, j) of the tile on the prepared map, from its corner."""
         nx, ny = self.prepared.shape
         if self.options.edges == "mirror":
             i, j = map_steps.unmirrored(i, j, (nx, ny))
@@ -78,10 +77,10 @@ class Preparation:
 
 @blas.one_thread()
 def prepare(scan: Scan, options: Options = NEUTRAL) -> Preparation:
-    """Make a tile of a map as read.
+    """Prepare the tile of a map as read.
 
-    InputError if a step cannot be done, the map is larger than the memory, or the rms height is so
-    large or small that the unit must be wrong.
+    InputError if a step fails, the map is larger than the memory, or the rms height is so large or
+    small that the unit must be wrong.
     """
     work, options, why = _prepared(scan, options, keep=True)
     prepared = work.z
@@ -91,10 +90,10 @@ def prepare(scan: Scan, options: Options = NEUTRAL) -> Preparation:
 
 
 def consume(scan: Scan, options: Options = NEUTRAL) -> tuple[Array, Record]:
-    """Make a tile [m] of a map in the memory of `scan`, whose heights are lost, with its record.
+    """Prepare a tile [m] in the memory of `scan`, whose heights are overwritten, with its record.
 
-    A map that is mirrored is left as it is, (nx, ny): its mirror images take four times its
-    memory. InputError as :func:`prepare`.
+    A map that is to be mirrored is returned without its images, (nx, ny), because these take four
+    times its memory. InputError as :func:`prepare`.
     """
     work, options, why = _prepared(scan, options, keep=False)
     _join(work, options, why)
@@ -104,7 +103,7 @@ def consume(scan: Scan, options: Options = NEUTRAL) -> tuple[Array, Record]:
 def _prepared(
     scan: Scan, options: Options, *, keep: bool
 ) -> tuple[WorkingMap, Options, dict[str, str]]:
-    """All steps but the last one; the mean is zero. `keep`: the heights of `scan` stay."""
+    """Do all steps but the last, to a mean of zero; `keep` preserves the heights of `scan`."""
     options, why = defaults(options, scan)
     _report(scan, "numbers")
     work = WorkingMap(scan, keep=keep)
@@ -121,7 +120,7 @@ def _prepared(
     if options.outliers > 0.0:
         _report(scan, "outliers")
         spiky = map_steps.prominence(work.z) > options.outliers
-        # a median of 5 x 5 points does not show specks of half as many points
+        # a median of 5 x 5 points misses specks of half as many points
         spiky |= dust_points(map_steps.levelled(work.z), options.outliers)
         valid = ~spiky if valid is None else valid & ~spiky
         work.begin()
@@ -157,7 +156,7 @@ def _prepared(
 
 
 def _join(work: WorkingMap, options: Options, why: dict[str, str]) -> None:
-    """Join the edges of the map, which makes it a tile of mean zero; mirror images come later."""
+    """Join the edges of the map to a tile of mean zero; mirror images are added later."""
     prepared = work.z
     if options.edges == "mirror":
         work.do("edges", "mirror", prepared, why["edges"])
@@ -165,7 +164,7 @@ def _join(work: WorkingMap, options: Options, why: dict[str, str]) -> None:
         tile = map_steps.windowed(prepared)
         work.do("edges", "window", tile, why["edges"], changed=map_steps.margin(tile.shape))
         tile -= tile.mean()
-    elif (steep := map_steps.jump(prepared)) > JUMP:
+    elif (steep := map_steps.jump(prepared)) > MAX_JUMP:
         note = (
             f"the edges do not match: steps across them are {steep:.3g} times those inside; "
             "if the map is not periodic, surface.edges = 'mirror'"
@@ -174,7 +173,7 @@ def _join(work: WorkingMap, options: Options, why: dict[str, str]) -> None:
 
 
 def _fill(work: WorkingMap, options: Options, valid: Mask) -> None:
-    """Fill what is missing, spikes included, or refuse to."""
+    """Fill missing points and removed spikes; InputError where `fill` is 'none'."""
     missing = int(valid.size - np.count_nonzero(valid))
     if missing == 0:
         return
@@ -200,7 +199,7 @@ def _report(scan: Scan, step: str) -> None:
 
 
 def _check_rms(scan: Scan, rms: float) -> None:
-    """Refuse what can only be a mistake of units."""
+    """Refuse an rms height that indicates a wrong unit."""
     if not RMS_BAND[0] <= rms <= RMS_BAND[1]:
         raise InputError(
             f"{scan.origin}: rms height {rms:.3g} m is outside {RMS_BAND[0]:g} ... "
@@ -209,17 +208,17 @@ def _check_rms(scan: Scan, rms: float) -> None:
 
 
 SUFFIXES = (".npy", ".txt", ".nc")
-"""What a tile can be written as."""
+"""Formats in which a tile can be written."""
 
 
 def write_map(tile: Topography, path: str | Path) -> Path:
-    """Write a tile, whole or not at all, in the format of the suffix of the path.
+    """Write a tile, completely or not at all, in the format of the suffix of the path.
 
-    ``.npy`` holds the heights alone, (nx, ny) in Fortran order. Text has one x per line and its
-    size in the header, ``# length_x = ... m``. netCDF holds ``heights(x, y)`` with the coordinates
-    of the pixels, their length, unit and that they are periodic, as xarray and SurfaceTopography
-    read it. Heights and lengths are in m. InputError for any other suffix; FileError if it cannot
-    be written.
+    ``.npy`` has only the heights, (nx, ny) in Fortran order. Text has one x per line and its size
+    in the header, ``# length_x = ... m``. netCDF has ``heights(x, y)`` with the coordinates of the
+    pixels and their attributes length, unit and periodic, as xarray and SurfaceTopography read
+    them. Heights and lengths are in m. InputError for any other suffix; FileError if it cannot be
+    written.
     """
     path = Path(path)
     writers = {".npy": _write_npy, ".txt": _write_text, ".nc": _write_netcdf}
@@ -241,7 +240,7 @@ def _write_text(tile: Topography, path: Path) -> None:
         f"length_x = {tile.length_x!r} m\nlength_y = {tile.length_y!r} m\nperiodic"
     )
     with path.open("wb") as stream:
-        # 17 digits: the same numbers when it is read
+        # 17 digits, so that the same numbers are read back
         np.savetxt(stream, tile.heights, fmt="%.17g", header=header)
 
 

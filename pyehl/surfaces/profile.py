@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parameters of a surface by a profile: rms height, Hurst exponent and roll-off with their bands.
+"""Rms height, Hurst exponent and roll-off of a surface from a profile, with confidence intervals.
 
 The periodogram of the levelled profile under a Hann window is fitted, by Whittle's likelihood, with
 that of an isotropic self-affine surface, C2D ~ max(q, q_r)^(-2 - 2 H), or of ridges across the
-profile, C1D ~ max(q, q_r)^(-1 - 2 H). Ordinates of a periodogram are distributed exponentially; a
-Hann window makes neighbours depend on each other, so that every second one counts.
+profile, C1D ~ max(q, q_r)^(-1 - 2 H). The ordinates of a periodogram are distributed exponentially;
+a Hann window correlates neighbours, so that only every second one is used.
 """
 
 import math
@@ -22,22 +22,21 @@ from pyehl.surfaces.tile import fractal
 from pyehl.types import Array, Mask
 
 BAND = 1.959963984540054
-"""Standard deviations of a band of 95 %."""
+"""Half width of a confidence interval of 95 % [standard deviations]."""
 KNEE = 1.4
-"""Factor of the band of the roll-off: at a sharp knee the curvature of the likelihood gives too
-small a band; without it the band contains the true value for 77 to 92 of 100 generated
-profiles."""
+"""Factor on the interval of the roll-off: at a sharp knee the curvature of the likelihood gives too
+small an interval, which contains the true value for only 77 to 92 of 100 generated profiles."""
 SHORTEST = 6.0
-"""Shortest wavelength that is fitted [points]: shorter ones are those of stylus and noise."""
-WORTH = 2.0
-"""Gain of log-likelihood from which on a roll-off is reported."""
+"""Shortest wavelength that is fitted [points]: stylus and noise determine shorter ones."""
+GAIN = 2.0
+"""Gain of log-likelihood above which a roll-off is reported."""
 ROWS = 16
-"""Rows of a map of ridges: they are all the same."""
+"""Number of rows of a map of ridges, all equal."""
 
 
 @dataclass(frozen=True, slots=True)
 class Spectrum:
-    """Fit of a profile; bands of 95 %."""
+    """Fit of a profile; the bands are confidence intervals of 95 %."""
 
     rms: float  # of the levelled profile [m]
     rms_band: tuple[float, float]
@@ -67,7 +66,7 @@ class Spectrum:
         return [*lines, f"           {self.keys()}"]
 
     def keys(self) -> str:
-        """Return the same as keys of ``&surface``."""
+        """Return the fit as keys of ``&surface``."""
         return (
             f"&surface kind = 'fractal' rms_height = {self.rms:.3g} hurst = {self.hurst:.2f} "
             f"rolloff_wavenumber = {self.rolloff:.3g} /"
@@ -75,7 +74,7 @@ class Spectrum:
 
 
 def levelled(profile: Profile, detrend: str = "auto") -> Array:
-    """Heights [m] without their mean, line or parabola."""
+    """Return the heights [m] minus their mean, line or parabola."""
     degree = {"none": 0, "centre": 0, "curvature": 2}.get(detrend, 1)
     x = np.linspace(-1.0, 1.0, profile.heights.size)
     rest = profile.heights - np.polyval(np.polyfit(x, profile.heights, degree), x)
@@ -94,14 +93,14 @@ def fit(profile: Profile, detrend: str = "auto", *, ridges: bool = False) -> Spe
     window = 0.5 - 0.5 * np.cos(2.0 * np.pi * (np.arange(n) + 0.5) / n)
     power = np.abs(np.fft.rfft(z * window)) ** 2 * 2.0 / (np.sum(window**2) * n)
     q = 2.0 * np.pi * np.fft.rfftfreq(n, profile.spacing)
-    # levelling has changed the first ones, the stylus the last ones
+    # levelling affects the first ordinates, the stylus the last
     use = slice(2, int(n / SHORTEST), 2)
     qs, ps = (np.asarray(v[use], dtype=np.float64) for v in (q, power))
     if qs.size < 8:
         raise InputError(f"{profile.origin}: {n} points are too few to fit a spectrum")
     plain = _maximum(qs, ps, ridges=ridges, rolls=False)
     rolled = _maximum(qs, ps, ridges=ridges, rolls=True)
-    best = rolled if plain[0] - rolled[0] > WORTH and rolled[1][2] > math.log(1.5 * q[1]) else plain
+    best = rolled if plain[0] - rolled[0] > GAIN and rolled[1][2] > math.log(1.5 * q[1]) else plain
     values, errors = best[1], best[2]
     hurst = float(values[1])
     half = BAND * float(errors[1])
@@ -125,10 +124,10 @@ def fit(profile: Profile, detrend: str = "auto", *, ridges: bool = False) -> Spe
 
 
 def _shape(q: Array, hurst: float, rolloff: float, *, ridges: bool) -> Array:
-    """Spectrum of a profile, but for a factor."""
+    """Spectrum of a profile, up to a factor."""
     if ridges:
         return np.asarray(np.maximum(q, rolloff) ** (-1.0 - 2.0 * hurst))
-    # over all waves that cross the profile at an angle: along q_y = q_s sinh(t)
+    # integral over the waves oblique to the profile, with q_y = scale sinh(t)
     scale = np.maximum(q, 0.1 * rolloff)[:, np.newaxis]
     t = np.linspace(0.0, 9.0, 361)
     across = scale * np.sinh(t)
@@ -137,7 +136,7 @@ def _shape(q: Array, hurst: float, rolloff: float, *, ridges: bool) -> Array:
 
 
 def _maximum(q: Array, power: Array, *, ridges: bool, rolls: bool) -> tuple[float, Array, Array]:
-    """Least negative log-likelihood, ln c, H (and ln q_r) there, and their standard errors."""
+    """Minimum negative log-likelihood, its ln c, H (and ln q_r), and their standard errors."""
 
     def negative(v: Array) -> float:
         roll = math.exp(v[2]) if rolls else 0.0
@@ -165,7 +164,7 @@ def _maximum(q: Array, power: Array, *, ridges: bool, rolls: bool) -> tuple[floa
 
 
 def _errors(negative: Callable[[Array], float], at: Array) -> Array:
-    """Give standard errors by the curvature of the likelihood."""
+    """Return standard errors from the curvature of the likelihood."""
     steps = np.full(at.size, 2e-2)
     hessian = np.empty((at.size, at.size))
     unit = np.diag(steps)
@@ -188,10 +187,10 @@ def _errors(negative: Callable[[Array], float], at: Array) -> Array:
 def scan_of_profile(
     profile: Profile, how: str, *, detrend: str = "auto", pixels: int = 256, seed: int = 1
 ) -> Scan:
-    """Make a map of a profile: 'isotropic', of its spectrum, or 'ridges', itself extended across.
+    """Make a map of a profile: 'isotropic' with its spectrum, or 'ridges', extended across it.
 
-    The isotropic one is a periodic square as long as the profile, with so many pixels per side; the
-    rms height is that of the waves that they include. InputError as :func:`fit`.
+    The isotropic map is a periodic square as long as the profile, with `pixels` per side; its rms
+    height is that of the waves that these resolve. InputError as :func:`fit`.
     """
     words = f"; {profile.note}" if profile.note else ""
     if how == "ridges":
@@ -205,12 +204,12 @@ def scan_of_profile(
     q = np.geomspace(math.pi / profile.length, math.pi / profile.spacing, 4000)
     shape = _shape(q, result.hurst, result.rolloff, ridges=False)
     own, cut = q >= 2.0 * math.pi / profile.length, q <= math.pi * pixels / profile.length
-    share = _integral(q, shape, own & cut) / _integral(q, shape, own)
+    resolved = _integral(q, shape, own & cut) / _integral(q, shape, own)
     tile = fractal(
         pixels,
         profile.length,
         profile.length,
-        rms_height=result.rms * math.sqrt(min(1.0, share)),
+        rms_height=result.rms * math.sqrt(min(1.0, resolved)),
         hurst=result.hurst,
         rolloff_wavenumber=result.rolloff,
         seed=seed,

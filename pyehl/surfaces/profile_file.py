@@ -2,7 +2,7 @@
 """Profiles along a line from the files of stylus instruments.
 
 ISO 5436-2 (Mahr .prf and others: records that end in EOR), and text with one column of heights, or
-columns of places and heights, under lines of text that may name units, spacing or the number of
+columns of positions and heights, under header lines that may name units, spacing or the number of
 points: Mountains, Dektak, Mitutoyo, spreadsheets.
 """
 
@@ -34,19 +34,19 @@ SPACING = re.compile(
     re.IGNORECASE,
 )
 MIN_POINTS = 32
-MOST_COLUMNS = 3
-"""An index, a place and a height."""
+MAX_COLUMNS = 3
+"""An index, a position and a height."""
 
 Read = tuple[Array, Array | float | None, tuple[float | None, float | None]]
-"""Heights, their places or their spacing, and the units of places and of heights [m]."""
+"""Heights, their positions or their spacing, and the units of positions and of heights [m]."""
 
 
 def read_columns(path: Path, lines: Sequence[str]) -> Read:
-    """Columns of numbers under lines of text."""
+    """Read columns of numbers under header lines."""
     comma = _decimal_comma(lines)
     rows = [row_of(line, comma=comma) for line in lines]
     sizes = [len(row) if row else 0 for row in rows]
-    # the longest run of lines with as many numbers
+    # the longest run of lines with equally many numbers
     best, start = (0, 0), 0
     for k in range(1, len(rows) + 1):
         if k == len(rows) or sizes[k] != sizes[start]:
@@ -56,23 +56,23 @@ def read_columns(path: Path, lines: Sequence[str]) -> Read:
     first, last = best
     if last - first < MIN_POINTS:
         raise InputError(f"{path}: no profile: no column of {MIN_POINTS} heights or more")
-    left = [k for k in range(last, len(lines)) if lines[k].strip()]
-    if any(sizes[k] for k in left):
+    after = [k for k in range(last, len(lines)) if lines[k].strip()]
+    if any(sizes[k] for k in after):
         raise InputError(
-            f"{path}: line {left[0] + 1} has {sizes[left[0]]} numbers, those above have "
+            f"{path}: line {after[0] + 1} has {sizes[after[0]]} numbers, those above have "
             f"{sizes[first]}: a profile has as many on each line, and a height on each"
         )
-    if sizes[first] > MOST_COLUMNS:
+    if sizes[first] > MAX_COLUMNS:
         raise InputError(f"{path}: no profile: {sizes[first]} columns of numbers")
     table = np.array(rows[first:last], dtype=float)
-    if sizes[first] == MOST_COLUMNS and not np.all(np.diff(table[:, 0]) > 0.0):
+    if sizes[first] == MAX_COLUMNS and not np.all(np.diff(table[:, 0]) > 0.0):
         raise InputError(f"{path}: no profile: of three columns the first does not ascend")
     head = [line for line in lines[:first] if line.strip()]
     return _places(table, head, comma=comma)
 
 
 def _decimal_comma(lines: Sequence[str]) -> bool:
-    """Whether commas are decimal points: numbers with a comma, and another sign between them."""
+    """Whether commas are decimal commas: numbers contain them, and other characters separate."""
     number = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
     with_comma = [line for line in lines if number.search(line)]
     others = sum(
@@ -83,7 +83,7 @@ def _decimal_comma(lines: Sequence[str]) -> bool:
 
 
 def row_of(line: str, *, comma: bool) -> list[float] | None:
-    """Numbers of a line; None if it has words."""
+    """Return the numbers of a line; None if it has words."""
     parts = re.split(r"[;\t ]+" if comma else r"[;,\t ]+", line.strip().strip(";,").strip())
     try:
         return [float((p.replace(",", ".") if comma else p).strip('"')) for p in parts]
@@ -92,7 +92,7 @@ def row_of(line: str, *, comma: bool) -> list[float] | None:
 
 
 def _places(table: Array, head: Sequence[str], *, comma: bool) -> Read:
-    """Distinguish places from heights, with the units that the head names."""
+    """Distinguish positions from heights, with the units that the header names."""
     columns, units = table.shape[1], _units(head, table.shape[1])
     if columns == 1:
         spacing, unit = _spacing(head, comma=comma)
@@ -103,7 +103,7 @@ def _places(table: Array, head: Sequence[str], *, comma: bool) -> Read:
             (1.0, z_unit),
         )
     even = [_is_even(table[:, k]) for k in range(columns - 1)]
-    # an index may stand before the places
+    # an index may precede the positions
     at = 1 if columns > 2 and even[0] and even[1] else 0
     if not even[at] and not np.all(np.diff(table[:, at]) > 0.0):
         at = -1
@@ -120,7 +120,7 @@ def _is_even(x: Array) -> bool:
 
 
 def _units(head: Sequence[str], columns: int) -> list[float | None]:
-    """Give the unit of each column by the lines above them, the nearest line first."""
+    """Find the unit of each column in the header lines, the nearest line first."""
     for line in reversed(head):
         for between in (r"[;\t]|,(?!\d)|\s{2,}", r"\s+"):
             parts = [p for p in re.split(between, line.strip()) if p.strip()]
@@ -137,14 +137,14 @@ def _units(head: Sequence[str], columns: int) -> list[float | None]:
 
 
 def _unit(text: str) -> float | None:
-    """Find the unit in a text, in brackets rather than not."""
+    """Find the unit in a text, preferably in brackets."""
     inside = re.search(r"[\[(]\s*([^\])]+?)\s*[\])]", text)
     match = (inside and UNIT.fullmatch(inside[1])) or UNIT.search(text)
     return METRES[match[1].lower()] if match else None
 
 
 def _spacing(head: Sequence[str], *, comma: bool) -> tuple[float | None, float | None]:
-    """Spacing of the points by the head, and its unit [m]."""
+    """Find the spacing of the points in the header, and its unit [m]."""
     for line in head:
         if match := SPACING.search(line):
             number = match[2].replace(",", ".") if comma or "." not in match[2] else match[2]
@@ -152,13 +152,12 @@ def _spacing(head: Sequence[str], *, comma: bool) -> tuple[float | None, float |
     return None, None
 
 
-MOST_LETTERS = 256
-"""Longest line [characters] of a profile, which has few numbers a line."""
-STEEP = 1.0
-"""Rms slope above which the unit of places or heights must be wrong."""
+MAX_CHARACTERS = 256
+"""Longest line of a profile [characters]; it has few numbers per line."""
+MAX_SLOPE = 1.0
+"""Rms slope above which the unit of positions or heights must be wrong."""
 ROUNDING = 0.5
-"""Largest distance of places from equally spaced ones, over the spacing, that counts as
-rounding."""
+"""Largest distance of positions from even ones, over the spacing, that counts as rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,9 +178,9 @@ class Profile:
 def read_profile(
     path: str | Path, length: float | None = None, height_unit: str | None = None
 ) -> Profile:
-    """Read a profile; `length` [m] and `height_unit` are needed where the file has none.
+    """Read a profile; `length` [m] and `height_unit` are needed if the file has none.
 
-    FileError if it cannot be opened; InputError if it is no profile, a unit is missing or
+    FileError if it cannot be opened; InputError if it is no profile, or a unit is missing or
     implausible.
     """
     path = Path(path)
@@ -202,12 +201,12 @@ def read_profile(
 
 
 def is_profile(path: str | Path) -> bool:
-    """Whether a file that is no map can be read as a profile, units apart."""
+    """Whether a file that is no map can be read as a profile, whatever its units."""
     path = Path(path)
     try:
         if path.suffix.lower() != ".npy" and not _may_be(path):
             return False
-        # any unit and length: they are asked for later
+        # with any unit and length
         read_profile(path, 1.0, "nm")
     except (InputError, OSError, ValueError):
         return False
@@ -215,11 +214,11 @@ def is_profile(path: str | Path) -> bool:
 
 
 def _may_be(path: Path) -> bool:
-    """Whether a text has a line of a profile; maps are large, and read as a profile slowly."""
+    """Whether a text has a line of a profile: a quick test, because maps are large."""
     encoding = encoding_of(path)
     if encoding is None:
         return False
-    short = (line for _, line in lines_of(path, encoding) if len(line) <= MOST_LETTERS)
+    short = (line for _, line in lines_of(path, encoding) if len(line) <= MAX_CHARACTERS)
     return any(_ends(line) or _has_few_numbers(line) for line in short)
 
 
@@ -230,7 +229,7 @@ def _ends(line: str) -> bool:
 
 def _has_few_numbers(line: str) -> bool:
     rows = (row_of(line, comma=comma) for comma in (False, True))
-    return any(row is not None and len(row) <= MOST_COLUMNS for row in rows)
+    return any(row is not None and len(row) <= MAX_COLUMNS for row in rows)
 
 
 def _iso(path: Path, lines: Sequence[str]) -> Read:
@@ -253,7 +252,7 @@ def _iso(path: Path, lines: Sequence[str]) -> Read:
             spacing = _float(words[2])
     if "CZ" not in axes:
         raise InputError(f"{path}: a file of ISO 5436-2 without an axis CZ: no profile")
-    # data stand behind the records of the head, whose end is the second EOR; a third ends the file
+    # the second EOR ends the header; the data follow, and a third EOR ends the file
     data = [word for line in lines[ends[1] + 1 :] for word in line.split()]
     numbers = np.array([_number_or_nan(word) for word in data if word.upper() != "EOR"])
     count = axes["CZ"][1]
@@ -287,7 +286,7 @@ def _finished(
     length: float | None,
     height_unit: str | None,
 ) -> Profile:
-    """Heights in metres, equally spaced; refuse implausible units."""
+    """Convert to equally spaced heights in metres; refuse implausible units."""
     if z.size < MIN_POINTS:
         raise InputError(f"{path}: {z.size} points: a profile has {MIN_POINTS} or more")
     if not np.isfinite(z).all():
@@ -321,7 +320,7 @@ def _finished(
     if not spacing > 0.0:
         raise InputError(f"{path}: the spacing of the profile is {spacing:g} m")
     slope = float(np.sqrt(np.mean(np.square(np.diff(z))))) / spacing
-    if slope > STEEP:
+    if slope > MAX_SLOPE:
         raise InputError(
             f"{path}: an rms slope of {slope:.3g} is no surface: are places and heights in one "
             f"unit? Points are {spacing:.3g} m apart\nexpected: surface.length_x [m], and "
@@ -331,14 +330,14 @@ def _finished(
 
 
 def _spaced(path: Path, x: Array, z: Array) -> tuple[Array, float, str]:
-    """Heights at equal distances, the distance, and a note if they were interpolated."""
+    """Return equally spaced heights, the spacing, and a note if they were interpolated."""
     steps = np.diff(x)
     if not np.all(steps > 0.0):
         k = int(np.argmin(steps > 0.0))
         raise InputError(f"{path}: the places of the profile do not ascend behind point {k + 1}")
     spacing = float((x[-1] - x[0]) / (x.size - 1))
     even = x[0] + spacing * np.arange(x.size)
-    # places have few digits
+    # positions are often rounded to few digits
     if float(np.abs(x - even).max()) <= ROUNDING * spacing and np.ptp(steps) < spacing:
         return z, spacing, ""
     return np.interp(even, x, z), spacing, "interpolated at equal distances"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The surface of a case for the solver and for ``ehl``: in memory, or prepared beside the case."""
+"""Surfaces of a case for the solver, in memory, and for ``ehl``, as files beside the case."""
 
 import logging
 import os
@@ -30,13 +30,13 @@ from pyehl.types import Array, Settings
 LOG = logging.getLogger(__name__)
 
 Surface = Topography | ArrayLike
-"""A tile, or heights [m] of shape (nx, ny) that have the size that the case states."""
+"""A tile, or heights [m] of shape (nx, ny) whose size the case states."""
 
 IN_MEMORY = {
     "surface": "heights in memory",
     "second_surface": "heights of the second surface in memory",
 }
-"""What a surface in memory is called in place of a file, by the group of the case."""
+"""Name of a surface in memory in place of a file, by the group of the case."""
 READY: Mapping[str, Any] = {
     "surface.kind": "map",
     "surface.channel": "",
@@ -57,16 +57,16 @@ READY: Mapping[str, Any] = {
     "surface.tile_y": 0.0,
     "surface.tile_mirrored": False,
 }
-"""Options of a tile that is ready: nothing is left to prepare."""
+"""Options of a tile that needs no further preparation."""
 LARGE_PIXELS, PART_PIXELS = 2**20, 2**18
-"""Pixels of the largest tile that is analysed as a whole, and of a part of a larger one."""
+"""Pixels of the largest tile that is analysed completely, and of the part of a larger one."""
 
 
 def in_memory(surface: Surface, group: Mapping[str, Any], name: str = "surface") -> Topography:
-    """Give a surface about its mean, of an array with the size in the group of that name.
+    """Return a surface with mean zero; an array has the size stated in the group `name`.
 
-    Missing points of an array, nan or masked, are interpolated as those of a file are.
-    InputError if it is no surface of heights, or the case does not say its size.
+    Missing points of an array, nan or masked, are interpolated like those of a file. InputError if
+    it is no surface of heights, or the case does not state its size.
     """
     if not isinstance(surface, Topography):
         numbers = real_numbers(surface, name)
@@ -88,7 +88,7 @@ def in_memory(surface: Surface, group: Mapping[str, Any], name: str = "surface")
 def _whole(
     heights: Array, size: tuple[float, float], group: Mapping[str, Any], name: str
 ) -> Topography:
-    """Tile of an array whose missing points are interpolated."""
+    """Return the tile of an array, with missing points interpolated."""
     missing = int(np.isnan(heights).sum()) if heights.ndim == 2 else 0
     if not missing or Keys.of(group).fill == "none":
         return Topography(heights_of(heights), size)
@@ -102,7 +102,7 @@ def _whole(
 
 
 def as_map(tile: Topography, group: str = "surface") -> dict[str, Any]:
-    """Options of a case with a tile in memory; they leave its track and the cut of its spectrum."""
+    """Options of a case for a tile in memory; its track and filter do not change."""
     length_x, length_y = tile.size
     options = {
         **READY,
@@ -116,7 +116,7 @@ def as_map(tile: Topography, group: str = "surface") -> dict[str, Any]:
 
 
 def write_beside(tile: Topography, case: Path, group: str = "surface") -> str:
-    """Write a tile beside a resolved case, which then names it; returns the name of the file."""
+    """Write a tile beside a resolved case and its name into the case; returns that name."""
     name = f"{group}.npy"
     np.save(case.with_name(name), tile.heights)
     text = case.read_text(encoding="utf-8")
@@ -129,11 +129,11 @@ def write_beside(tile: Topography, case: Path, group: str = "surface") -> str:
 def part_of(
     heights: Array, pixel: tuple[float, float], origin: str, *, images: bool = False
 ) -> Topography | None:
-    """Middle of a large surface, with its mirror images; None for one that is not large.
+    """Return the middle of a large surface with its mirror images; None if it is not large.
 
-    Heights (nx, ny) [m], pixel size along x and y [m]. `images`: the tile of the surface is it
-    with its mirror images, four times as many pixels. The part has at most `PART_PIXELS` pixels,
-    square where the surface is wide enough.
+    Heights (nx, ny) [m], pixel size along x and y [m]. `images`: the tile of the surface includes
+    its mirror images, four times as many pixels. The part has at most `PART_PIXELS` pixels, square
+    if the surface is wide enough.
     """
     if heights.size * (4 if images else 1) <= LARGE_PIXELS:
         return None
@@ -149,7 +149,7 @@ def part_of(
 
 
 def given(heights: Array, surface: Mapping[str, Any]) -> Topography:
-    """Tile of heights [m] that replace the surface of a case; of a large one a part.
+    """Return a tile of heights [m] that replace the surface of a case; a part of a large one.
 
     Its size is that of the tile in the group ``surface``, or that of the map.
     """
@@ -163,9 +163,9 @@ def given(heights: Array, surface: Mapping[str, Any]) -> Topography:
 
 
 def with_surface(case: Case, surface: Surface, group: str = "surface") -> tuple[Case, Topography]:
-    """Give a case with a surface in memory in place of that of a group, and it as a tile.
+    """Replace the surface of a group by one in memory; returns the case and the tile.
 
-    InputError if it is no surface of heights, or the case does not say its size.
+    InputError if it is no surface of heights, or the case does not state its size.
     """
     tile = in_memory(surface, case.resolve().get(group, {}), group)
     return case.with_options(as_map(tile, group)), tile
@@ -173,26 +173,26 @@ def with_surface(case: Case, surface: Surface, group: str = "surface") -> tuple[
 
 @dataclass(frozen=True, slots=True)
 class SolverSurface:
-    """What the solver needs from Python for the surface of a case."""
+    """Data of a surface of a case that the solver takes from Python."""
 
-    # (nx, ny) [m], Fortran order; None where the solver makes or reads the surface itself
+    # (nx, ny) [m], Fortran order; None if the solver makes or reads the surface itself
     heights: Array | None = None
-    # Texts ``group.key=value`` to set in its case: the size of a prepared tile, and whether it is
-    # the heights with their mirror images
+    # Options ``group.key=value`` for its case: the size of a prepared tile, and whether mirror
+    # images are to be added to the heights
     options: tuple[str, ...] = ()
-    # How a map became a tile, or that it was taken as it is; else None
+    # Record of the preparation of a map; else None
     preparation: Record | None = None
-    # Of a large map a part, see :func:`part_of`; its spectrum is not cut. Else None
+    # Part of a large map, not filtered, see :func:`part_of`; else None
     part: Topography | None = None
 
 
 def gather(
     settings: Settings, heights: Mapping[str, Array], tiles: Mapping[str, Topography]
 ) -> dict[str, SolverSurface]:
-    """Make what the solver needs from Python for both surfaces of a resolved case, by group.
+    """Prepare both surfaces of a resolved case for the solver, by group.
 
-    `heights` [m] by group replace the surfaces of the case; `tiles` are what they were made
-    of. InputError if a surface that they replace has no heights; else as `for_solver`.
+    `heights` [m] by group replace the surfaces of the case; `tiles` are the tiles from which they
+    were made. InputError if a surface that they replace has no heights; else as `for_solver`.
     """
     both: dict[str, SolverSurface] = {}
     for group in GROUPS:
@@ -211,18 +211,18 @@ def gather(
 
 
 def for_solver(settings: Settings, group: str = "surface") -> SolverSurface:
-    """Make what the solver needs from Python for the surface of a group of a resolved case.
+    """Prepare the surface of a group of a resolved case for the solver.
 
     The solver makes harmonic patterns and fractal surfaces, reads arrays that need no preparation,
-    and cuts their spectra itself: so these give the same bits by the program `ehl`. Only what it
-    cannot read or prepare comes from here, before its spectrum is cut. InputError if a map is not
+    and filters them itself, so that the program `ehl` gives the same bits. Python prepares only
+    what the solver cannot read or prepare, and does not filter it. InputError if a map is not
     usable; OSError if it cannot be opened.
     """
     if group not in settings:
         return SolverSurface()
     surface, s = settings[group], Keys.of(settings[group])
     if s.kind == "fractal" and s.track:
-        # only harmonic patterns are scaled by the film
+        # only harmonic patterns depend on the film
         made = whole({**settings, "surface": surface}, contact_of(settings), film=0.0)
         return SolverSurface(np.asfortranarray(moved(made, surface).heights))
     if s.kind == "fractal":
@@ -234,7 +234,7 @@ def for_solver(settings: Settings, group: str = "surface") -> SolverSurface:
     changed = s.track or not scan.is_array or not (s.length_x and s.length_y)
     changed = changed or s.height_unit != "m" or s.profile != "none"
     changed = changed or not plain_array(s.file, scan.heights.shape)
-    # a large map is in memory once
+    # a large map must be in memory only once
     heights, record = consume(scan, options)
     del scan
     x, y = record.tile_size
@@ -255,9 +255,9 @@ def for_solver(settings: Settings, group: str = "surface") -> SolverSurface:
 def write_resolved(
     case: Case, path: str | os.PathLike[str], inputs: tuple[str | os.PathLike[str], ...] = ()
 ) -> list[Path]:
-    """Write a resolved case, and prepared surfaces as .npy beside it; gives all files.
+    """Write a resolved case, and prepared surfaces as .npy beside it; returns all files.
 
-    InputError if a file is in the way, or one of `inputs`; else as `for_solver`.
+    InputError if a file exists already or is one of `inputs`; else as `for_solver`.
     """
     path = Path(path)
     tiles = {group: path.with_name(f"{path.stem}_{group}.npy") for group in GROUPS}

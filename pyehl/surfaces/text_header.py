@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the lines above a table of heights say: units, size, pixels."""
+"""Interpret the lines above a table of heights: units, size, pixels."""
 
 import re
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ _NUMBER = r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:e[-+]?\d+)?"
 _PER = r"(?:\s*(?:/|per)\s*(?:px|pix|pixels?|pts?|points?|samples?|digits?|画素))?"
 _BRACKETS = re.compile(rf"[(\[{{]\s*({UNIT}){_PER}\s*[)\]}}]", re.IGNORECASE)
 _ENTRY = re.compile(r"([^:：=,;\t]+?)\s*[:：=,;\t][:：=,;\t\s]*(.*)")
-# 'Pixel size 1.5 um', with blanks alone
+# 'Pixel size 1.5 um', separated only by blanks
 _BLANKS = re.compile(
     rf"([^\W\d][^:=,;\t]*?)\s+({_NUMBER}\s*{UNIT}{_PER}|(?:(?<=unit )|(?<=units ))\s*{UNIT})",
     re.IGNORECASE,
@@ -22,7 +22,7 @@ _WORDS = re.compile(r"[a-zÀ-ɏ]+|[^\W\d_a-zÀ-ɏ]+")
 # 'heights in nm', 'z in um'
 _IN = re.compile(rf"\b(?:heights?|z|values?|data)\b\W.*?\bin\s+({UNIT})(?![^\W_])", re.IGNORECASE)
 
-# 'Height [um]' above a table, and its numbers of points alone
+# 'Height [um]' above a table, and a line with only its numbers of points
 _HEADING = re.compile(
     rf"(?:heights?|z|values?|data|höhe)\s*[(\[]\s*({UNIT})\s*[)\]]", re.IGNORECASE
 )
@@ -67,43 +67,43 @@ _HEIGHTS = frozenset(
 )
 _LATERAL = frozenset("x y xy lateral laterals xunit yunit xyunit unitxy horizontal".split())
 _CHANNEL = frozenset("channel kanál kanal canal canale канал チャネル 채널".split())
-# What these describe is not the map
+# Words of entries that do not describe the map
 _OTHER = frozenset(
     "tip stylus radius filter cutoff wavelength offset origin position start min max minimum "
     "maximum aperture magnification speed average time date laser lens zoom roughness rms".split()
 )
 _MISSING = frozenset("nodata missing invalid undefined void bad ungültig".split())
 _FACTOR = frozenset("factor scale faktor scaling gain multiplier skalierung".split())
-# A number without a unit may be one of points
+# With these words a number without a unit may be a number of points
 _NO_PITCH = frozenset(("resolution", "auflösung"))
 
 
 @dataclass(slots=True)
 class Header:
-    """What the lines of a header say; None for what they do not, or say in two ways."""
+    """Contents of a header; None for what it does not state, or states in two ways."""
 
     size: list[float | None] = field(default_factory=lambda: [None, None])  # [m]
     pitch: list[float | None] = field(default_factory=lambda: [None, None])  # [m]
     # Lengths without a unit: sizes, or numbers of points
     bare: list[float | None] = field(default_factory=lambda: [None, None])
     points: list[int | None] = field(default_factory=lambda: [None, None])
-    # Metres in the unit of the heights, and of lengths and places
+    # Units of the heights, and of lengths and positions [m]
     height_unit: float | None = None
     lateral_unit: float | None = None
-    # Metres in the units of the columns x, y and z of a list
+    # Units of the columns x, y and z of a list [m]
     columns: tuple[float, ...] = ()
     channel: str = ""
-    # Heights that the header states are none
+    # Numbers that mark missing heights
     marks: list[float] = field(default_factory=list)
-    # Whether the heights have a unit that is none of length: volts, degrees
+    # Whether the unit of the heights is not one of length: volts, degrees
     is_other: bool = False
-    # Whether a comment alone names the unit: the file is an array all the same
+    # Whether only a comment names the unit: the file then still counts as an array
     by_comment: bool = False
     notes: list[str] = field(default_factory=list)
 
     @property
     def is_informative(self) -> bool:
-        """Whether there is more than a comment on heights."""
+        """Whether it contains more than a comment on the heights."""
         return bool(
             any(v is not None for v in (*self.size, *self.bare, *self.pitch, *self.points))
             or self.lateral_unit is not None
@@ -116,7 +116,7 @@ class Header:
 
 @dataclass(slots=True)
 class _Entry:
-    """One line: a name in words, a number, a unit, each of them or none."""
+    """One line of a header: the words of its name, a number and a unit, if any."""
 
     words: set[str]
     number: float | None
@@ -125,7 +125,7 @@ class _Entry:
 
 
 def header_of(lines: Sequence[str]) -> Header:
-    """Read the lines above a table."""
+    """Interpret the lines above a table."""
     header = Header()
     result: dict[tuple[str, int], set[float]] = {}
     if lines and (match := _POINTS_ALONE.fullmatch(lines[0])):
@@ -153,7 +153,7 @@ def header_of(lines: Sequence[str]) -> Header:
 
 
 def _entry(text: str) -> _Entry | None:
-    """Take a line apart; None if it is no entry of a header."""
+    """Parse a line; None if it is no entry of a header."""
     match = _ENTRY.fullmatch(text) or _BLANKS.fullmatch(text)
     if match is None:
         return None
@@ -173,7 +173,7 @@ def _entry(text: str) -> _Entry | None:
 
 
 def _sort(entry: _Entry, header: Header, result: dict[tuple[str, int], set[float]]) -> None:
-    """Assign an entry by the words of its name."""
+    """Store the value of an entry according to the words of its name."""
     words = entry.words
     if words & _CHANNEL and entry.number is None:
         header.channel = entry.rest
@@ -205,7 +205,7 @@ def _sort(entry: _Entry, header: Header, result: dict[tuple[str, int], set[float
 
 
 def _kind(entry: _Entry) -> str:
-    """Describe what the number of an entry is by its name; empty: nothing that is known."""
+    """Return what the number of an entry is, by its name; '' if it is unknown."""
     words, sides = entry.words, _X | _Y
     if words & _UNITS:
         return ""
@@ -221,7 +221,7 @@ def _kind(entry: _Entry) -> str:
 
 
 def _put_unit(entry: _Entry, header: Header, result: dict[tuple[str, int], set[float]]) -> None:
-    """Keep the unit of heights, of lengths, or of both."""
+    """Store the unit of heights, of lengths, or of both."""
     words = entry.words
     lateral = bool(words & _LATERAL)
     if entry.unit is None:
@@ -235,7 +235,7 @@ def _put_unit(entry: _Entry, header: Header, result: dict[tuple[str, int], set[f
 
 
 def _settle(header: Header, result: dict[tuple[str, int], set[float]]) -> None:
-    """Accept values that are given once."""
+    """Accept the values that are stated unambiguously."""
     for (kind, side), values in list(result.items()):
         if len(values) > 1:
             header.notes.append(f"the header states its {kind} in two ways: neither was taken")
@@ -256,6 +256,6 @@ def _settle(header: Header, result: dict[tuple[str, int], set[float]]) -> None:
         points = once("points", side)
         if points is not None and header.points[side] is None:
             header.points[side] = int(points)
-    # a height alone may be that of the surface
+    # without a width, the height of an entry may be that of the surface
     if header.size[0] is None:
         header.size[1] = None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables of numbers in a text, with the lines above each: every line is accounted for."""
+"""Read the tables of numbers in a text, each with the lines above it; no line is ignored."""
 
 import csv
 import re
@@ -17,7 +17,7 @@ from pyehl.surfaces.text_header import header_of
 from pyehl.types import Array
 
 BLANKS = " "
-"""Stands for any number of blanks as the separator."""
+"""Separator of any number of blanks."""
 SEPARATORS = (";", "\t", ",", BLANKS)
 
 _WORDS = """
@@ -27,20 +27,20 @@ _WORDS = """
     manquant mancante vuoto vacío vacio perdido 無効 欠測 なし 无效 缺失
 """
 WORDS = frozenset(_WORDS.split())
-"""Words in place of a missing point, in lower case."""
-# Marks without a letter or digit: ***, ---, ?, ..., and the like; and errors of spreadsheets
+"""Words for a missing point, in lower case."""
+# Marks without letters or digits (***, ---, ?, ...), and errors of spreadsheets
 _MARKS = re.compile(
     r"[-+*_?.~#!–—−×|<>]+|#?(?:n/a|nv|num!|value!|wert!|ref!|div/0!)|[-+]?1\.#\w+|<\w+>|x{2,}",
     re.IGNORECASE,
 )
-# Two words for one point, where blanks separate the cells
+# Phrases of several words for one missing point, where blanks separate the cells
 _PHRASES = re.compile(
     r"\b(?:no|not|out|kein|keine|nicht|pas|sin)[ _-]+"
     r"(?:data|value|measured|valid|available|of[ _-]range|daten|wert|gemessen|de[ _-]données|datos)"
     r"\b",
     re.IGNORECASE,
 )
-# A comment begins a line, or follows a blank; #N/A is none
+# A comment begins a line, or follows a blank; #N/A is not a comment
 _COMMENT = re.compile(r"(?:^|(?<=\s))#(?!\s*(?:N/A|NV|NUM!|VALUE!|WERT!|REF!|DIV/0!|#+|$))", re.I)
 _WORD = re.compile(r"\S+")
 _FORTRAN = re.compile(r"^([-+.\d]+)[dD]([-+]?\d+)$")
@@ -56,19 +56,19 @@ class BadCellError(ValueError):
 
 @dataclass(slots=True)
 class Cells:
-    """How the cells of a table are separated, and what stood in place of missing points."""
+    """Separator of the cells of a table, and counts of the words for missing points."""
 
     separator: str
-    # Whether each line ends with a separator, behind which there is no cell; begins with one
+    # Whether each line ends, or begins, with a separator that delimits no cell
     closed: bool = False
     opened: bool = False
     words: Counter[str] = field(default_factory=Counter)
 
     def split(self, line: str) -> list[str]:
-        """Cells of a line, without a comment; none for an empty line."""
+        """Return the cells of a line without its comment; an empty list for an empty line."""
         text = uncommented(line)
         if not text.strip():
-            # separators alone are a line of missing points
+            # a line of only separators is one of missing points
             if self.separator == BLANKS or self.separator not in text:
                 return []
         if self.separator == BLANKS:
@@ -82,13 +82,13 @@ class Cells:
         return cells[1:] if self.opened and not cells[0].strip() else cells
 
     def fresh(self) -> "Cells":
-        """Give the same separation, with nothing counted."""
+        """Return the same separation with empty counts."""
         return Cells(self.separator, self.closed, self.opened)
 
     def numbers(self, line: str) -> Array | None:
-        """Numbers of a line, NaN where a point is missing; None for an empty line.
+        """Return the numbers of a line, NaN where a point is missing; None for an empty line.
 
-        BadCellError names the first cell that is neither.
+        BadCellError names the first cell that is neither a number nor a missing point.
         """
         cells = self.split(line)
         if not cells:
@@ -116,7 +116,7 @@ class Cells:
         return np.nan
 
     def column(self, line: str, index: int) -> int:
-        """Column of a cell of a line, from 1; behind the last one where there are fewer."""
+        """Text column of a cell of a line, from 1; after the last cell if there are fewer."""
         if index < 0:
             return line.index(",") + 1
         if self.separator == BLANKS:
@@ -131,13 +131,13 @@ class Cells:
 
 
 def uncommented(line: str) -> str:
-    """Text of a line before its comment."""
+    """Return the text of a line before its comment."""
     match = _COMMENT.search(line) if "#" in line else None
     return line[: match.start()] if match else line
 
 
 def is_missing(word: str) -> bool:
-    """Whether a word, or nothing, stands in place of a missing point."""
+    """Whether a cell, which may be empty, denotes a missing point."""
     return (
         not word
         or word.lower() in WORDS
@@ -147,7 +147,7 @@ def is_missing(word: str) -> bool:
 
 
 def cells_of(lines: Sequence[str]) -> Cells:
-    """How the lines of a table are separated: so that most of them have equally many numbers."""
+    """Find the separator with which most lines of a table have equally many numbers."""
     best, score = None, (0, 0)
     for separator in SEPARATORS:
         cells = Cells(separator, *_edges(lines, separator))
@@ -173,7 +173,7 @@ def _edges(lines: Sequence[str], separator: str) -> tuple[bool, bool]:
 
 
 def count_numbers(cells: Cells, line: str) -> int:
-    """Count the cells of a line of heights; 0 for a line of anything else, or of no number."""
+    """Count the cells of a line of heights; 0 for any other line, or one without a number."""
     try:
         row = cells.numbers(line)
     except (BadCellError, csv.Error):
@@ -182,28 +182,28 @@ def count_numbers(cells: Cells, line: str) -> int:
 
 
 HEADER_LINES = 200
-"""Lines among which a table must begin."""
+"""Number of lines within which a table must begin."""
 SAMPLE_LINES = 20
-# First characters of numbers, nan and inf among them, and of quotes and empty cells
+# First characters of numbers, nan and inf, of quotes and of empty cells
 NUMBER_BEGINS = '0123456789+-.nNiI,;"\t'
 
 
 @dataclass(slots=True)
 class Table:
-    """One table, and what stands above it."""
+    """One table, with the lines above and below it."""
 
     header: list[str]
-    # Each line as it stands, NaN where a point is missing
+    # Numbers in the order of the file, NaN where a point is missing
     rows: Array
     # Line of the file at which the numbers begin, from 1
     line: int
     cells: Cells
-    # Lines behind it that are no numbers
+    # Lines of text after it
     footer: list[str] = field(default_factory=list)
 
 
 def begins_with_numbers(first: list[str]) -> bool:
-    """Whether the first line that is no comment begins with a number, or an empty cell."""
+    """Whether the first line that is not a comment begins with a number or an empty cell."""
     data = next((text for line in first if (text := uncommented(line)).strip()), "")
     word = data.lstrip(" ")
     if not word or word[0] not in NUMBER_BEGINS:
@@ -212,10 +212,11 @@ def begins_with_numbers(first: list[str]) -> bool:
 
 
 def tables_of(path: Path, encoding: str) -> list[Table]:
-    """All tables of a text.
+    """Read all tables of a text.
 
-    InputError names line and column of what is neither a number nor a word for a missing point, of
-    a line that is longer or shorter than the others, and the first line of a text without a table.
+    InputError names line and column of a cell that is neither a number nor a word for a missing
+    point, of a line with more or fewer cells than the others, or the first line of a text without a
+    table.
     """
     lines = lines_of(path, encoding)
     first = [line for _, line in zip(range(HEADER_LINES), lines, strict=False)]
@@ -241,7 +242,7 @@ def tables_of(path: Path, encoding: str) -> list[Table]:
                 footer.append(line)
             continue
         if footer and rows:
-            # numbers behind words are the next table where the words are its header
+            # numbers after words are a new table if the words are a header
             if header_of(footer).is_informative:
                 table.rows = np.array(rows)
                 tables.append(table)
@@ -273,23 +274,23 @@ def _chained(
 
 
 def _start(path: Path, first: list[str]) -> tuple[int, Cells]:
-    """Index of the line at which the first table begins, and how its cells are separated."""
+    """Index of the line at which the first table begins, and the separation of its cells."""
     begins = next((n for n, line in enumerate(first) if uncommented(line).strip()), 0)
     cells = cells_of(first[begins : begins + SAMPLE_LINES])
     if begins_with_numbers(first) and count_numbers(cells, first[begins]):
         counts = [count_numbers(cells, line) for line in first[begins : begins + 3]]
-        # a line of x without a corner above a column of y
+        # the first line may have the positions x, with an empty corner above the column y,
         corner = counts[0] + 1
-        # or the numbers of points alone
+        # or only the numbers of points
         if len(counts) == 3 and counts[1] == counts[2] and (corner == counts[1] or corner == 3):
             begins += counts[0] != counts[1]
         return begins, cells.fresh()
     best: tuple[int, int, Cells] | None = None
-    # the header may have other separators than the table: that of the last lines counts
+    # the header may have another separator than the table: try that of the last lines first
     cells = cells_of([line for line in first[-SAMPLE_LINES:] if line.strip()])
     for candidate in (cells, cells_of(first)):
         counts = [count_numbers(candidate, line) for line in first]
-        # two lines of as many numbers, three at the least: a header may have numbers, too
+        # two successive lines of equally many numbers, at least three: a header may have numbers
         both = enumerate(pairwise(counts))
         result = next((n for n, (one, other) in both if one == other > 2), None)
         if result is not None and (best is None or counts[result] > best[1]):
@@ -312,7 +313,7 @@ def _start(path: Path, first: list[str]) -> tuple[int, Cells]:
             "expected: numbers, with surface.height_unit, surface.length_x and surface.length_y"
         )
     start, size, separated = best
-    # what stood in place of missing points is counted from here
+    # words for missing points are counted from here on
     cells = separated.fresh()
     # lines of missing points above the first number belong to the table
     while start > 0 and _is_row_of_none(cells, first[start - 1], size):
@@ -321,7 +322,7 @@ def _start(path: Path, first: list[str]) -> tuple[int, Cells]:
 
 
 def _is_row_of_none(cells: Cells, line: str, size: int) -> bool:
-    """Whether a line is one of missing points alone."""
+    """Whether a line has only missing points."""
     try:
         row = cells.numbers(line)
     except BadCellError:
@@ -330,14 +331,14 @@ def _is_row_of_none(cells: Cells, line: str, size: int) -> bool:
 
 
 def _goes_on(cells: Cells, line: str, size: int) -> bool:
-    """Whether a line that cannot be read is one of the table, and no heading or footer."""
+    """Whether a line that cannot be read belongs to the table and is no heading or footer."""
     parts = cells.split(line)
     numbers = sum(count_numbers(cells, part) > 0 for part in parts)
     return len(parts) == size or 2 * numbers >= max(len(parts), 1)
 
 
 def _bad(path: Path, number: int, line: str, cells: Cells, error: BadCellError) -> InputError:
-    """Say where a cell is no number."""
+    """Return the error of a cell that is no number, with its position."""
     place = f"{path}:{number}:{cells.column(line, error.index)}"
     if error.index < 0 or (cells.separator == "," and len(error.cell.split()) > 1):
         return InputError(

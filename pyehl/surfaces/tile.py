@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Periodic tiles of heights: generated surfaces, spectra, cut-offs and the Fourier interpolant.
 
-The fractal generator is that of the compiled library, which the program `ehl` uses too: a seed is
-the same surface in both, to the bit. It is written there and not taken from a surface library
-because the seed must give the same surface in all versions of the package, and because the
-modulus of each Fourier component must be selectable, exactly on the power law or random.
+The fractal generator is that of the compiled library, which the program `ehl` also uses: a seed
+gives the same surface in both, to the bit. It is part of the library because a seed must give the
+same surface in all versions of the package, and because the modulus of each Fourier component must
+be selectable, exactly on the power law or random.
 
 Spectra follow Jacobs, Junge & Pastewka 2017 (doi 10.1088/2051-672X/aa51f8):
 C2D(q) = |dx dy sum z exp(-i q x)|^2/(Lx Ly) [m^4], so that h_rms^2 = sum C2D/(Lx Ly), and C_iso is
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from pyehl.surfaces.prepare import Preparation
 
 MAX_PIXELS = 2**26
-"""Most pixels a map may have (512 MB of heights)."""
+"""Maximum number of pixels of a map (512 MB of heights)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,11 +42,11 @@ class Topography:
     size
         Length of the tile along x and y [m].
     origin
-        Origin, in words.
+        Origin of the heights, as text.
     seed
         Seed of a generated surface, else None.
     preparation
-        How a map became this tile, else None.
+        Preparation of the map of this tile, else None.
 
     Raises
     ------
@@ -73,7 +73,7 @@ class Topography:
     def __post_init__(self) -> None:
         """Check shape, numbers and size."""
         what = self.origin or "surface"
-        # a hole of a masked array is no height
+        # masked points become NaN
         z = np.asarray(real_numbers(self.heights, what), dtype=np.float64)
         object.__setattr__(self, "heights", z)
         if z.ndim != 2 or min(z.shape) < 2:
@@ -126,7 +126,7 @@ class Topography:
 
 
 FEATURES = ("dent", "bump", "ridge", "groove")
-"""Kinds of surfaces that pass the contact once; only the solver generates them."""
+"""Single features, which pass the contact once; only the solver generates them."""
 
 
 def fractal(
@@ -141,17 +141,17 @@ def fractal(
     modulus: str = "deterministic",
     lay_ratio: float = 1.0,
 ) -> Topography:
-    """Self-affine surface with random phases.
+    """Generate a self-affine surface with random phases.
 
     C2D is proportional to max(|q|, q_r)^(-2 - 2 hurst) up to the Nyquist wavenumbers of the tile,
     zero at q = 0; q_r = `rolloff_wavenumber` [rad/m], 0: no roll-off. The rms height [m] is exact
     for each surface, the mean is zero, the tile is periodic. `pixels` per side, or (nx, ny); size
-    of the tile in m; 0 < hurst <= 1. Two surfaces of one seed and different pixels are not the
-    same surface; the seed is not negative, of any size, and the phases come from the raw words of
-    PCG64, as NumPy seeds it. Modulus ``"deterministic"``: each component lies exactly on the power
-    law, only phases are random (the usual generator); ``"gaussian"``: amplitudes of a Gaussian
-    random field. `lay_ratio` r: length of correlation along x over that along y; q is then that
-    across the lay, max(1, r) q_x and q_y/min(1, r). InputError for an argument out of range.
+    of the tile in m; 0 < hurst <= 1. The same seed with other `pixels` gives another surface; the
+    seed is any integer that is not negative, and the phases come from the raw words of PCG64,
+    seeded as in NumPy. Modulus ``"deterministic"``: each component is exactly on the power law,
+    only phases are random (the usual generator); ``"gaussian"``: amplitudes of a Gaussian random
+    field. `lay_ratio` r: correlation length along x over that along y; q is then that across the
+    lay, max(1, r) q_x and q_y/min(1, r). InputError for an argument out of range.
     """
     nx, ny = (pixels, pixels) if isinstance(pixels, int) else pixels
     if nx < 4 or ny < 4 or nx * ny > MAX_PIXELS:
@@ -194,9 +194,10 @@ def fractal(
 def harmonic(
     amplitude: float, wavelength_x: float, wavelength_y: float, pixels: tuple[int, int]
 ) -> Topography:
-    """One tile of z = A cos(2 pi x/wavelength_x) cos(2 pi y/wavelength_y), eq. 15 behind the front.
+    """Generate one period of z = A cos(2 pi x/wavelength_x) cos(2 pi y/wavelength_y).
 
-    Amplitude A and wavelengths, which are the size of the tile, in m; `pixels` (nx, ny).
+    This is eq. 15 of Zhang et al. 2019 behind the front. Amplitude A and wavelengths, which are the
+    size of the tile, in m; `pixels` (nx, ny).
     """
     nx, ny = pixels
     x = np.cos(2.0 * np.pi * np.arange(nx) / nx)
@@ -233,9 +234,8 @@ def psd_2d(topography: Topography) -> tuple[Array, Array, Array]:
 def psd_isotropic(topography: Topography) -> tuple[Array, Array]:
     """Mean of C2D over annuli of |q|: mean wavenumber (n,) [rad/m], ascending; C_iso (n,) [m^4].
 
-    The annuli are centred on the multiples of 2 pi/min(Lx, Ly) and as wide. What lies beyond the
-    smaller Nyquist wavenumber, where the square no longer fills the circle, is left out, and so
-    are empty annuli.
+    The annuli are centred on the multiples of 2 pi/min(Lx, Ly) and as wide. Wavenumbers beyond the
+    smaller Nyquist wavenumber, where the annuli are incomplete, and empty annuli are omitted.
     """
     qx, qy, c2d = psd_2d(topography)
     q = np.hypot(qx[:, np.newaxis], qy[np.newaxis, :])
@@ -258,13 +258,12 @@ def filtered(
 ) -> Topography:
     r"""Cut the spectrum of a periodic tile at a shortest and a longest wavelength [m]; 0: none.
 
-    As ISO 25178 has them, the S-filter and the L-filter; the wavelength of a component is 2
-    pi/\|q\|, the mean height goes with `longest_wavelength`. ``"sharp"``: components between the
-    cut-offs pass, those at them too, others do not; ``"gaussian"``: the areal Gaussian filters of
-    ISO 16610-61, of which half of the amplitude passes at the cut-off: exp(-pi (alpha l_c/l)^2)
-    for a shortest wavelength l_c, one less that for a longest, alpha = sqrt(ln 2/pi). InputError
-    for a negative or infinite wavelength, a longest that is not above the shortest, or another
-    kind.
+    These are the S-filter and the L-filter of ISO 25178; the wavelength of a component is 2
+    pi/\|q\|, and `longest_wavelength` also removes the mean height. ``"sharp"``: components between
+    the cut-offs, inclusive, pass; ``"gaussian"``: the areal Gaussian filters of ISO 16610-61, which
+    transmit half of the amplitude at the cut-off: exp(-pi (alpha l_c/l)^2) for a shortest
+    wavelength l_c, one minus that for a longest, alpha = sqrt(ln 2/pi). InputError for a negative
+    or infinite wavelength, a longest that is not above the shortest, or another kind.
     """
     for name, value in (("shortest", shortest_wavelength), ("longest", longest_wavelength)):
         if not (math.isfinite(value) and value >= 0.0):
@@ -292,23 +291,23 @@ def filtered(
 
 
 LINES = 64
-"""Lines of a tile that are moved at a time."""
+"""Number of lines of a tile that are shifted at a time."""
 
 
 def _shift_factor(q: Array, distance: float, nyquist: int | None) -> Complex:
     factor = np.exp(-1j * q * distance)
     if nyquist is not None:
-        # half of this component travels with +q and half with -q
+        # this component is half a wave of +q and half a wave of -q
         factor[nyquist] = np.cos(q[nyquist] * distance)
     return cast("Complex", factor)
 
 
 def shifted(topography: Topography, distance_x: float, distance_y: float = 0.0) -> Topography:
-    """Return the tile moved by a distance [m] towards positive x and y, by its Fourier interpolant.
+    """Return the tile shifted by a distance [m] towards positive x and y, by Fourier interpolation.
 
-    Exact for the trigonometric polynomial through the heights; a shift by whole pixels is the
-    cyclic copy to rounding. The Nyquist component is indistinguishable from a standing wave and is
-    multiplied by the cosine of its phase, so that it alone is attenuated by a fraction of a pixel.
+    Exact for the trigonometric polynomial through the heights; a shift by whole pixels is a cyclic
+    permutation up to rounding. The Nyquist component is indistinguishable from a standing wave and
+    is multiplied by the cosine of its phase, so that shifts by part of a pixel attenuate only it.
     """
     nx, ny = topography.shape
     qx, qy = wavenumbers(topography)
@@ -320,7 +319,7 @@ def shifted(topography: Topography, distance_x: float, distance_y: float = 0.0) 
 
 
 def shift_across(heights: Array, length_y: float, distance: float) -> None:
-    """Move a tile (nx, ny) along y by a distance [m] in place, as :func:`shifted` does."""
+    """Shift a tile (nx, ny) along y by a distance [m] in place, as :func:`shifted` does."""
     ny = heights.shape[1]
     q = 2.0 * np.pi * np.fft.rfftfreq(ny, length_y / ny)
     factor = _shift_factor(q, distance, None if ny % 2 else ny // 2)
@@ -330,7 +329,7 @@ def shift_across(heights: Array, length_y: float, distance: float) -> None:
 
 
 def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:
-    """Return the tile on a finer grid by its Fourier interpolant, (nx, ny) = `pixels`.
+    """Return the tile on a finer grid of `pixels` (nx, ny), by Fourier interpolation.
 
     InputError if the new grid has fewer pixels in a direction.
     """
@@ -345,7 +344,7 @@ def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:
             continue
         values = np.fft.rfft(z, axis=axis, norm="forward")
         if old % 2 == 0:
-            # the Nyquist component is one of two conjugate halves on a finer grid
+            # on a finer grid the Nyquist component splits into two conjugate halves
             index = [slice(None), slice(None)]
             index[axis] = slice(old // 2, old // 2 + 1)
             values[tuple(index)] *= 0.5
@@ -354,7 +353,7 @@ def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:
 
 
 def interpolated(values: Array, times: int) -> Array:
-    """Trigonometric interpolant of a periodic sequence on so many times as many points."""
+    """Interpolate a periodic sequence trigonometrically on `times` as many points."""
     n = values.size
     half = np.fft.rfft(values)
     if n % 2 == 0:

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files of instruments that SurfaceTopography 1.27 does not read, or not as they are meant.
+"""Files of instruments that SurfaceTopography 1.27 does not read, or reads wrongly.
 
 Zygo MetroPro and Mx: XYZ Data File Format 1, ASCII Data File Formats 1 and 2 (MetroPro Reference
 Guide OMP-0347, appendix on data formats).
 
-TMD, NMS, X3P (ISO 25178-72: x3ptools of R writes the revision with an en dash and folds all into a
-folder; the standard allows heights in the XML itself), and Gwyddion files whose data have no units.
-The module needs NumPy alone, so that it could be part of SurfaceTopography.
+TMD, NMS, X3P (ISO 25178-72: x3ptools of R writes the revision with an en dash and puts all files
+into a folder; the standard allows heights in the XML itself), and Gwyddion files without units.
+The module needs only NumPy, so that it could become part of SurfaceTopography.
 """
 
 import io
@@ -25,9 +25,9 @@ from numpy.typing import NDArray
 
 ZYGO_MAGIC = ("Zygo XYZ Data File", "Zygo ASCII Data File")
 INVALID = 2147483640
-"""Integers from this on mark points without a phase."""
+"""Integers from this one up mark points without a phase."""
 RESOLUTION = {0: 4096, 1: 32768, 2: 131072}
-"""Counts of phase in a wave, by PhaseRes."""
+"""Phase counts per wavelength, by PhaseRes."""
 HEADER_LINES = 13
 
 
@@ -37,7 +37,7 @@ class ZygoMap:
 
     # (nx, ny) [m], NaN where there are no data; x along the lines of the camera
     heights: NDArray[np.float64]
-    # Side of a pixel [m]; 0: not calibrated
+    # Pixel size [m]; 0: not calibrated
     pixel: float
 
 
@@ -49,7 +49,7 @@ def read_zygo(lines: Iterable[str]) -> ZygoMap:
         raise ValueError(f"the header of a Zygo text file has {HEADER_LINES} lines at least")
     is_list = header[0].startswith(ZYGO_MAGIC[0])
     left, top, width, height = (int(v) for v in _numbers(header, 4, 4))
-    # heights are counts of phase times scale factor, wavelength and obliquity factor
+    # heights are phase counts times scale factor, wavelength and obliquity factor
     _, scale, wavelength, _, obliquity, _, pixel = _numbers(header, 8, 7)
     if min(width, height) < 1:
         raise ValueError(f"line 4: a phase map of {width} x {height} points")
@@ -68,7 +68,7 @@ def read_zygo(lines: Iterable[str]) -> ZygoMap:
 
 
 def _numbers(header: list[str], line: int, count: int) -> list[float]:
-    """First numbers of a line of the header, counted from 1."""
+    """Return the first `count` numbers of a line of the header; lines count from 1."""
     words = header[line - 1].split()[:count]
     try:
         values = [float(word) for word in words]
@@ -82,7 +82,7 @@ def _numbers(header: list[str], line: int, count: int) -> list[float]:
 def _listed_heights(
     rest: Iterable[str], corner: tuple[int, int], shape: tuple[int, int]
 ) -> NDArray[np.float64]:
-    """Heights [m] of lines of column, row and micrometres, between two '#'."""
+    """Read heights [m] from lines of column, row and micrometres between two '#'."""
     heights = np.full(shape, np.nan)
     seen = 0
     begun = False
@@ -113,7 +113,7 @@ def _listed_heights(
 
 
 def _phases(rest: Iterable[str], intensities: int, phases: int) -> NDArray[np.float64]:
-    """Read counts of phase: the block behind the intensities, each between two '#'."""
+    """Read phase counts: the block after the intensities, each block between two '#'."""
     blocks: list[list[str]] = []
     for line in rest:
         words = line.split()
@@ -121,7 +121,7 @@ def _phases(rest: Iterable[str], intensities: int, phases: int) -> NDArray[np.fl
             blocks.append([])
         elif blocks:
             blocks[-1] += words
-    # an end of file may follow the last '#'
+    # an empty block may follow the last '#'
     filled = [block for block in blocks if block]
     expected = [count for count in (intensities, phases) if count]
     lengths = [len(block) for block in filled]
@@ -139,20 +139,20 @@ TMD_BEGIN = 32
 TMD_COMMENT = b"Created by TrueMap v6\r\n\0"
 """Comment of TrueMap, which is the only one that SurfaceTopography reads."""
 NMS_POINTS, NMS_DATA = 1368, 3468
-"""Where a NMS file has its numbers of points, and its heights."""
+"""Offsets of the numbers of points and of the heights in a NMS file [bytes]."""
 NMS_MISSING = 2**16 - 1
 
 
 def plain_tmd(data: bytes) -> bytes | None:
-    """Give a TMD file with the comment of TrueMap in place of its own, which may be empty.
+    """Replace the comment of a TMD file, which may be empty, by that of TrueMap.
 
-    The comment ends with the first zero byte, as GelSight's own reader has it; None for files that
-    are plain already, or none of the format.
+    The comment ends at the first zero byte, as in the reader of GelSight. None for files that have
+    that comment already, or another format.
     """
     if not data.startswith(TMD_MAGIC):
         return None
     end = data.find(b"\0", TMD_BEGIN)
-    # the comment as text, its zero byte behind it; none at all; padded to 24 bytes
+    # the data begin after the zero byte of the comment, without a comment, or after that of TrueMap
     for begin in (end + 1, TMD_BEGIN, TMD_BEGIN + len(TMD_COMMENT)):
         if begin < TMD_BEGIN or begin + 24 > len(data):
             continue
@@ -165,9 +165,9 @@ def plain_tmd(data: bytes) -> bytes | None:
 
 
 def nms_missing(path: Path) -> NDArray[np.bool_] | None:
-    """Where (nx, ny) a NMS file has no heights: the largest whole number of two bytes.
+    """Mark points (nx, ny) of a NMS file without height: those with the largest 16-bit integer.
 
-    The scale of its heights ends at the number below. None if the file is shorter than it states.
+    None if the file is shorter than it states.
     """
     with path.open("rb") as stream:
         stream.seek(NMS_POINTS)
@@ -183,11 +183,11 @@ REVISION = "ISO5436 - 2000"
 _DASHES = re.compile(r"[\s‐-―−_-]+")
 BINARY = "bindata/data.bin"
 MAX_XML = 2**28
-"""Bytes of the largest XML that is looked at."""
+"""Size of the largest XML that is read [bytes]."""
 
 
 def plain_x3p(data: bytes) -> bytes | None:
-    """Give the same surface in the plain form; None if it is that already, or no X3P.
+    """Convert an X3P file to the plain form; None if it is plain already, or no X3P.
 
     ValueError states what is wrong with heights in the XML.
     """
@@ -223,12 +223,12 @@ def plain_x3p(data: bytes) -> bytes | None:
 
 
 def _find(root: ElementTree.Element, path: str) -> ElementTree.Element | None:
-    """Element by its path, whatever the namespace."""
+    """Find an element by its path, in any namespace."""
     return root.find("/".join(f"{{*}}{name}" for name in path.split("/")))
 
 
 def _revised(root: ElementTree.Element) -> bool:
-    """Spell the revision as the standard does; whether that changed it."""
+    """Spell the revision as the standard does; returns whether that changed it."""
     revision = _find(root, "Record1/Revision")
     if revision is None or revision.text in (None, REVISION):
         return False
@@ -239,7 +239,7 @@ def _revised(root: ElementTree.Element) -> bool:
 
 
 def _linked(root: ElementTree.Element, names: set[str], folder: str) -> bool:
-    """Write the places of binary data as they are in the archive; whether that changed one."""
+    """Correct the paths of binary data to those in the archive; returns whether one changed."""
     changed = False
     for link in ("PointDataLink", "ValidPointsLink"):
         element = _find(root, f"Record3/DataLink/{link}")
@@ -248,7 +248,7 @@ def _linked(root: ElementTree.Element, names: set[str], folder: str) -> bool:
         place = re.sub(r"[\\/]+", "/", element.text.strip()).removeprefix("./").lstrip("/")
         place = place.removeprefix(folder)
         if folder + place not in names:
-            # written in other capitals
+            # the case of letters differs
             same = (n for n in names if n.lower() == (folder + place).lower())
             place = next(same, folder + place).removeprefix(folder)
         changed |= place != element.text
@@ -257,7 +257,7 @@ def _linked(root: ElementTree.Element, names: set[str], folder: str) -> bool:
 
 
 def _listed(root: ElementTree.Element) -> bytes | None:
-    """Heights of the XML as the binary data that the XML then links to; None if it has none."""
+    """Replace heights in the XML by a link to binary data; returns these, None without heights."""
     record = _find(root, "Record3")
     listed = _find(root, "Record3/DataList")
     axis = _find(root, "Record1/Axes/CZ")
@@ -269,7 +269,7 @@ def _listed(root: ElementTree.Element) -> bytes | None:
     expected = int(np.prod([int(size.text or 0) for size in sizes if size is not None]))
     values = []
     for datum in listed:
-        # x;y;z, or z alone where x and y have equal steps; nothing where the point is missing
+        # x;y;z, or only z for evenly spaced points; empty for a missing point
         last = (datum.text or "").strip().rpartition(";")[2].strip()
         try:
             values.append(float(last) if last else np.nan)
@@ -279,7 +279,7 @@ def _listed(root: ElementTree.Element) -> bytes | None:
         raise ValueError(f"{len(values)} heights in the XML, but its matrix has {expected} points")
     kind = next((e for e in axis if e.tag.rpartition("}")[2] == "DataType"), None)
     if kind is not None:
-        # a missing point is NaN, which integers do not have
+        # integers have no NaN for a missing point
         kind.text = "D"
     record.remove(listed)
     link = ElementTree.SubElement(record, _like(listed, "DataLink"))
@@ -289,7 +289,7 @@ def _listed(root: ElementTree.Element) -> bytes | None:
 
 
 def _like(element: ElementTree.Element, name: str) -> str:
-    """Name in the namespace of an element."""
+    """Return a name in the namespace of an element."""
     space, brace, _ = element.tag.rpartition("}")
     return f"{space}{brace}{name}"
 
@@ -300,10 +300,10 @@ _ARRAYS = {"C": "S1", "I": "<i4", "Q": "<i8", "D": "<f8"}
 
 
 def data_fields(data: bytes) -> dict[str, dict[str, Any]]:
-    """Give the data fields of the channels of a Gwyddion file, by their title or number.
+    """Return the data fields of the channels of a Gwyddion file, by their title or number.
 
-    Each has ``xres``, ``yres``, ``xreal``, ``yreal``, ``data`` and, where the file names them,
-    ``si_unit_xy`` and ``si_unit_z``. ValueError if the file is none, or ends too early.
+    Each has ``xres``, ``yres``, ``xreal``, ``yreal``, ``data`` and, if the file names them,
+    ``si_unit_xy`` and ``si_unit_z``. ValueError if it is no Gwyddion file, or ends too early.
     """
     if not data.startswith(GWY_MAGIC):
         raise ValueError("it does not begin as a Gwyddion file")
@@ -325,7 +325,7 @@ def _text(data: bytes, at: int) -> tuple[str, int]:
 
 
 def _object(data: bytes, at: int) -> tuple[tuple[str, dict[str, Any]], int]:
-    """Name and items of an object, and where it ends."""
+    """Read an object; returns its name, its items and the offset of its end."""
     name, at = _text(data, at)
     (size,) = struct.unpack_from("<I", data, at)
     at += 4
@@ -341,7 +341,7 @@ def _object(data: bytes, at: int) -> tuple[tuple[str, dict[str, Any]], int]:
 
 
 def _value(data: bytes, kind: str, at: int) -> tuple[Any, int]:
-    """Value of a kind, and where it ends."""
+    """Read a value of a kind; returns it and the offset of its end."""
     if kind in _ATOMS:
         return struct.unpack_from(_ATOMS[kind], data, at)[0], at + struct.calcsize(_ATOMS[kind])
     if kind == "s":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A map while it is prepared: its heights, options, what 'auto' means, a record of each step."""
+"""A map during its preparation: heights, options with their defaults, record of each step."""
 
 import math
 from collections.abc import Mapping
@@ -19,13 +19,13 @@ from pyehl.types import Array
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """What to do with a map; each attribute is a key of ``&surface``."""
+    """Options of the preparation of a map; each attribute is a key of ``&surface``."""
 
     detrend: str = "auto"  # ``"none"``, ``"centre"``, ``"tilt"``, ``"curvature"`` or ``"auto"``
     fill: str = "harmonic"  # ``"harmonic"`` or ``"none"``, which refuses maps with missing points
-    # Threshold, see :func:`pyehl.surfaces.map_steps.prominence`; 0: none are removed
+    # Threshold, see :func:`pyehl.surfaces.map_steps.prominence`; 0: no point is removed
     outliers: float = 0.0
-    # ``"x"`` or ``"y"``: lines along it are put level with each other; ``"none"``
+    # Direction of the lines whose offsets are removed, ``"x"`` or ``"y"``; or ``"none"``
     align_lines: str = "none"
     edges: str = "auto"  # ``"mirror"``, ``"window"``, ``"periodic"`` or ``"auto"``
     # (x_min, x_max, y_min, y_max) [m], a maximum of 0 being the far edge
@@ -35,23 +35,23 @@ class Options:
 
     @classmethod
     def from_settings(cls, surface: Mapping[str, Any]) -> Self:
-        """Options of the group ``surface`` of a resolved case; absent keys have their defaults."""
+        """Options of the group ``surface`` of a resolved case, with defaults for missing keys."""
         s = Keys.of(surface)
         crop = s.crop_x_min, s.crop_x_max, s.crop_y_min, s.crop_y_max
         return cls(s.detrend, s.fill, s.outliers, s.align_lines, s.edges, crop, s.rotate, s.sign)
 
 
 NEUTRAL = Options()
-"""With these an array passes through as it is, its mean removed."""
+"""With these options only the mean of an array is removed."""
 
 
 def defaults(options: Options, scan: Scan) -> tuple[Options, dict[str, str]]:
-    """Options without 'auto', and the reason for each word.
+    """Resolve 'auto'; returns the options, and the reason for each value.
 
-    A file of an instrument is a map of a part: it lies at an angle that is the stage's and not the
-    surface's, and its edges do not match. An array is taken as it is, and so is a file that states
-    that it is periodic: nothing is removed, and it is repeated. A part of an array, or an array
-    that was turned, is no longer periodic.
+    A file of an instrument is a map of a part: its tilt is that of the stage and not of the
+    surface, and its edges do not match. An array, and a file that states that it is periodic, is
+    used as it is: nothing is removed, and it is repeated. A cropped or rotated array is no longer
+    periodic.
     """
     why = {"detrend": "given", "edges": "given"}
     tile = scan.is_array or scan.is_periodic
@@ -70,7 +70,7 @@ def defaults(options: Options, scan: Scan) -> tuple[Options, dict[str, str]]:
 
 
 MAX_HEIGHT = 1e6
-"""Largest height [m] that is not taken for damage."""
+"""Largest plausible height [m]; larger ones indicate a damaged file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,16 +80,16 @@ class Step:
     Attributes
     ----------
     name, value
-        Key of ``&surface`` and what it was.
+        Key of ``&surface`` and its value.
     why
-        Reason for the value, in words: 'given', or the reason of the default.
+        Reason for the value: 'given', or the reason of the default.
     changed
-        Points that were removed, filled or altered; 0 where all are, evenly.
+        Number of points that were removed, filled or altered; 0 if all were alike.
     before, after
-        Roughness of the map before and after, without mirror images: each of its heights and each
-        step between two of them occurs four times in the tile.
+        Roughness of the map before and after, without mirror images: each height and each step
+        between two of them occurs four times in the tile.
     note
-        Remark; mostly empty.
+        Remark; usually empty.
     """
 
     name: str
@@ -102,7 +102,7 @@ class Step:
 
     @property
     def summary(self) -> dict[str, Any]:
-        """Return what ``summary.json`` holds of it."""
+        """Return its entry in ``summary.json``."""
         return {
             "key": f"surface.{self.name}",
             "value": self.value,
@@ -120,28 +120,28 @@ class Step:
 class Record:
     """Record of the preparation of a map, without its heights."""
 
-    # Its origin
+    # Origin of the map
     file: str
     channel: str
-    is_array: bool  # whether it is an array, and no file of an instrument
-    # Of the map as read, along x and y, [m], and where the size is from
+    is_array: bool  # whether it is an array, not a file of an instrument
+    # Pixels and size [m] of the map as read, along x and y, and the source of the size
     pixels: tuple[int, int]
     size: tuple[float, float]
     size_from: str
     missing: int  # points without a height
-    note: str  # remark on the file; mostly empty
-    # What these keys were, 'auto' resolved
+    note: str  # remark on the file; usually empty
+    # Values of these keys, 'auto' resolved
     detrend: str
     edges: str
-    # Of the tile, along x and y, [m]
+    # Pixels and size [m] of the tile along x and y
     tile_pixels: tuple[int, int]
     tile_size: tuple[float, float]
-    steps: tuple[Step, ...]  # the steps that did something, in order
-    findings: tuple[Finding, ...] = ()  # what the levelled map has besides roughness
+    steps: tuple[Step, ...]  # the steps that changed the map, in order
+    findings: tuple[Finding, ...] = ()  # artefacts of the levelled map
 
     @property
     def summary(self) -> dict[str, Any]:
-        """Return what ``summary.json`` holds of it: SI units."""
+        """Return its entry in ``summary.json``, in SI units."""
         return {
             "file": self.file,
             "channel": self.channel or None,
@@ -186,7 +186,7 @@ class Record:
 
 
 def _largest(z: Array) -> float:
-    """Largest height by its modulus, of those that are there; without copies."""
+    """Largest absolute height, ignoring missing points; makes no copies."""
     most = float(np.fmax.reduce(z, axis=None, initial=0.0))
     return max(most, -float(np.fmin.reduce(z, axis=None, initial=0.0)))
 
@@ -194,9 +194,9 @@ def _largest(z: Array) -> float:
 class WorkingMap:
     """A map that is being prepared, with the record of the steps so far.
 
-    Heights `z` (nx, ny) [m], NaN where there is none; `pixel` size along x and y [m]; the number
-    of heights that the map as read lacks is `missing`. `keep`: the heights of `scan` must stay as
-    they are. InputError if a height cannot be one in metres.
+    Heights `z` (nx, ny) [m], NaN where missing; `pixel` size along x and y [m]; `missing` heights
+    in the map as read. `keep`: the heights of `scan` must not change. InputError if a height is
+    implausible in metres.
     """
 
     def __init__(self, scan: Scan, *, keep: bool) -> None:
@@ -204,7 +204,7 @@ class WorkingMap:
         self.scan = scan
         self.origin = scan.origin
         if math.isinf(_largest(self.z)):
-            # an infinite height is none
+            # infinite heights count as missing
             self.z = np.where(np.isinf(self.z), np.nan, self.z)
         largest = _largest(self.z)
         if largest > MAX_HEIGHT:
@@ -220,14 +220,14 @@ class WorkingMap:
         self._kept = scan.heights if keep else None
 
     def own(self) -> Array:
-        """Heights that may be changed in place."""
+        """Return the heights for changes in place, as a copy if they are shared."""
         shared = self._kept is not None and np.may_share_memory(self.z, self._kept)
         if shared or not self.z.flags.writeable:
             self.z = self.z.copy()
         return self.z
 
     def begin(self) -> None:
-        """Note the roughness of the map before a step that works in place."""
+        """Store the roughness of the map before a step that works in place."""
         self._last = self._last or areal.extent(self.z, self.pixel)
 
     def do(
@@ -241,9 +241,9 @@ class WorkingMap:
         pixel: tuple[float, float] | None = None,
         note: str = "",
     ) -> None:
-        """Record a step; its result is what the next one works on."""
+        """Record a step and its result `heights`, on which the next step works."""
         before = self._last or areal.extent(self.z, self.pixel)
-        # the same heights, even if only their edges are looked at or their images are added
+        # a step 'edges' that only notes the edges or will add images does not change the heights
         same = heights is self.z and name == "edges"
         self.z = heights
         self.pixel = pixel or self.pixel
@@ -251,7 +251,7 @@ class WorkingMap:
         self.steps.append(Step(name, value, why, changed, before, self._last, note))
 
     def record(self, options: Options) -> Record:
-        """Describe what was done, in numbers."""
+        """Return the record of all steps."""
         scan, images = self.scan, 2 if options.edges == "mirror" else 1
         nx, ny = (images * n for n in self.z.shape)
         return Record(
