@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random bearings and gear pairs as catalogues and drawings have them.
+"""Check random bearings and gear pairs with dimensions as in catalogues and drawings.
 
-Deep-groove, angular-contact, cylindrical and tapered roller bearings and gear pairs in turn. A
-machine follows from the seed and its number alone. Every answer is checked against laws that no
-code of `pyehl.machines` is used for: equilibrium of the ring, Hertz' pressure of a line, film
-formulas written out here, ranges of what is physical. ``--solve N`` solves each contact of the
-first N machines too and compares.
+Deep-groove, angular-contact, cylindrical and tapered roller bearings and gear pairs in turn. Seed
+and number determine a machine. Every result is checked independently of `pyehl.machines`:
+equilibrium of the ring, Hertz pressure of a line, film formulas written out here, physical ranges.
+``--solve N`` also solves each contact of the first N machines and compares.
 """
 
 import argparse
@@ -25,12 +24,12 @@ from pyehl.machines.result import MachineResult
 from pyehl.types import Row
 
 BORES = (10, 12, 15, 17, 20, 25, 30, 35, 40, 45, 50, 60, 70, 80, 90, 100, 120, 150, 200)
-"""Of catalogues [mm]."""
+"""Bores in catalogues [mm]."""
 VISCOSITIES = (10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460)
-"""Classes of ISO VG."""
+"""ISO VG classes."""
 FINISHES = ("ground", "honed", "superfinished", "polished")
 REFUSED, CRASHED, WRONG, RIGHT = "refused", "crashed", "wrong", "right"
-# Young's moduli [Pa], Poisson's ratio of bearing steel: E'
+# E' of bearing steel [Pa] from Young's modulus and Poisson's ratio
 STEEL = 2.06e11 / (1.0 - 0.3**2)
 COLUMNS = columns("machine:s drawn:d right:d refused:d wrong:d crashed:d solved:d contacts:d")
 
@@ -38,7 +37,7 @@ Keys = dict[str, Any]
 
 
 def _scale(rng: np.random.Generator, low: float, high: float) -> float:
-    """Draw evenly in the logarithm."""
+    """Draw a number, log-uniformly."""
     return float(np.exp(rng.uniform(math.log(low), math.log(high))))
 
 
@@ -50,7 +49,7 @@ def _rings(rng: np.random.Generator, low: float, high: float) -> tuple[float, fl
 
 
 def _balls(rng: np.random.Generator) -> tuple[Keys, float]:
-    """Give a row of balls, and its static rating by ISO 76 [N]."""
+    """Draw a row of balls; returns it with its static load rating by ISO 76 [N]."""
     bore, outside, pitch, ball = _rings(rng, 0.5, 0.65)
     count = max(5, int(rng.uniform(0.55, 0.75) * math.pi / math.asin(ball / pitch)))
     keys = {
@@ -65,7 +64,7 @@ def _balls(rng: np.random.Generator) -> tuple[Keys, float]:
 
 
 def deep_groove(rng: np.random.Generator) -> tuple[str, Keys]:
-    """Deep-groove ball bearing under a radial load, or a combined one."""
+    """Draw a deep-groove ball bearing under a radial or combined load."""
     keys, rating = _balls(rng)
     keys["clearance"] = _scale(rng, 3e-6, 3e-5)
     keys["radial_load"] = rating * _scale(rng, 0.01, 0.5)
@@ -74,7 +73,7 @@ def deep_groove(rng: np.random.Generator) -> tuple[str, Keys]:
 
 
 def angular_contact(rng: np.random.Generator) -> tuple[str, Keys]:
-    """Angular-contact ball bearing."""
+    """Draw an angular-contact ball bearing."""
     keys, rating = _balls(rng)
     keys["contact_angle"] = float(rng.choice([15.0, 25.0, 30.0, 40.0]))
     keys["radial_load"] = rating * _scale(rng, 0.01, 0.3)
@@ -97,7 +96,7 @@ def _rollers(rng: np.random.Generator) -> tuple[Keys, float]:
 
 
 def cylindrical(rng: np.random.Generator) -> tuple[str, Keys]:
-    """Cylindrical roller bearing."""
+    """Draw a cylindrical roller bearing."""
     keys, rating = _rollers(rng)
     keys["clearance"] = _scale(rng, 1e-5, 8e-5)
     keys["radial_load"] = rating * _scale(rng, 0.01, 0.5)
@@ -105,7 +104,7 @@ def cylindrical(rng: np.random.Generator) -> tuple[str, Keys]:
 
 
 def tapered(rng: np.random.Generator) -> tuple[str, Keys]:
-    """Tapered roller bearing, with the axial load that holds it together at least."""
+    """Draw a tapered roller bearing with at least the axial load that holds it together."""
     keys, rating = _rollers(rng)
     keys["contact_angle"] = rng.uniform(10.0, 28.0)
     keys["roller_angle"] = rng.uniform(1.0, 2.5)
@@ -116,7 +115,7 @@ def tapered(rng: np.random.Generator) -> tuple[str, Keys]:
 
 
 def gears(rng: np.random.Generator) -> tuple[str, Keys]:
-    """Spur gears; one in five has few teeth without a profile shift, which undercuts."""
+    """Draw spur gears; one pair in five has few teeth without profile shift: an undercut."""
     module = 1e-3 * float(rng.choice([1.0, 1.5, 2.0, 3.0, 4.0, 4.5, 6.0, 8.0]))
     few = rng.random() < 0.2
     teeth = int(rng.integers(10, 17)) if few else int(rng.integers(17, 40))
@@ -133,7 +132,7 @@ def gears(rng: np.random.Generator) -> tuple[str, Keys]:
         "load_sharing": str(rng.choice(["linear", "equal"])),
         "speed": _scale(rng, 100.0, 6000.0),
     }
-    # load on the tooth over width and module, as strength allows
+    # tooth load over width and module, limited by strength
     keys["torque"] = _scale(rng, 5e6, 8e7) * width * module * 0.5 * module * teeth
     return "spur_gear", keys
 
@@ -148,18 +147,18 @@ MACHINES: dict[str, Callable[[np.random.Generator], tuple[str, Keys]]] = {
 
 
 def draw(seed: int, number: int) -> tuple[str, Keys]:
-    """Give the kind of a machine, and its keys."""
+    """Draw a machine; returns its kind and its keys."""
     rng = np.random.default_rng((seed, number))
     kind = list(MACHINES)[number % len(MACHINES)]
     group, keys = MACHINES[kind](rng)
     if group != "spur_gear":
-        # rotational speed times pitch diameter, as lubricated bearings have it
+        # speed from n d_m, in the usual range of bearings
         pitch = 0.5 * (keys["bore"] + keys["outer_diameter"])
         keys["inner_speed"] = _scale(rng, 1e4, 5e5) * 1e-3 / pitch
     grade = float(rng.choice(VISCOSITIES))
     oil = {
         "lubricant.kinematic_viscosity_40": grade,
-        # viscosity index near 95
+        # viscosity index of about 95
         "lubricant.kinematic_viscosity_100": 0.65 * grade**0.61,
         "lubricant.temperature": rng.uniform(30.0, 110.0),
         "lubricant.shear_law": str(rng.choice(["newtonian", "eyring", "eyring"])),
@@ -173,13 +172,13 @@ def draw(seed: int, number: int) -> tuple[str, Keys]:
 
 
 def answer(keys: Keys, run: str, **options: Any) -> MachineResult:  # noqa: ANN401 (keys of a case)
-    """Run the command of the machine element."""
+    """Run the function of the machine element."""
     command = pyehl.gear if "spur_gear.teeth_1" in keys else pyehl.bearing
     return command(..., keys, options, run=run, jobs=1)
 
 
 def faults(keys: Keys, result: MachineResult) -> list[str]:
-    """Name the impossible values of a result."""
+    """List the impossible values of a result."""
     table, s = result.table, result.summary
     wrong = [
         f"{name} not between {low:g} and {high:g}"
@@ -206,7 +205,7 @@ def faults(keys: Keys, result: MachineResult) -> list[str]:
 
 
 def _bearing_faults(keys: Keys, table: pd.DataFrame, s: Row) -> list[str]:
-    """Check the equilibrium of the ring by the loads of the outer raceway."""
+    """Check the equilibrium of the ring from the loads on the outer raceway."""
     outer = table[table["ring"] == "outer"]
     load, psi, angle = (
         outer["load_N"].to_numpy(),
@@ -221,20 +220,20 @@ def _bearing_faults(keys: Keys, table: pd.DataFrame, s: Row) -> list[str]:
         for name, force, want in zip(("radial", "axial"), forces, wanted, strict=True)
         if abs(force - want) > 1e-6 * load.sum()
     ]
-    # one element in the load zone carries all, a full zone of many elements no less than its share
+    # Z F_max/F is Z with one loaded element and about 4 with many
     count = keys.get("ball_bearing.balls") or keys["roller_bearing.rollers"]
     if wanted[1] == 0.0 and not 3.9 <= s["load_max_Z_over_F"] <= count * (1.0 + 1e-9):
         wrong.append(f"largest load {s['load_max_Z_over_F']:.3f} F/Z")
     torque = s["torque_N_m"]
-    # of rolling bearings 0.5 to 0.0003 of load and pitch radius
-    share = torque / (0.5 * s["pitch_diameter_m"] * math.hypot(*wanted))
-    if math.isfinite(torque) and not 1e-5 < share < 0.5:
-        wrong.append(f"torque is {share:.2g} of load times pitch radius")
+    # coefficient of friction of a bearing, at the pitch radius
+    ratio = torque / (0.5 * s["pitch_diameter_m"] * math.hypot(*wanted))
+    if math.isfinite(torque) and not 1e-5 < ratio < 0.5:
+        wrong.append(f"torque is {ratio:.2g} of load times pitch radius")
     return wrong
 
 
 def _line_faults(keys: Keys, table: pd.DataFrame) -> list[str]:
-    """Check Hertz' pressure and half width of lines, and Dowson-Higginson's minimum film."""
+    """Check Hertz pressure and minimum film of lines (Dowson-Higginson, or Martin if rigid)."""
     lines = table[table["shape"] == "line"]
     if lines.empty:
         return []
@@ -249,7 +248,7 @@ def _line_faults(keys: Keys, table: pd.DataFrame) -> list[str]:
     material = oil.pressure_viscosity * STEEL
     film = 2.65 * flow**0.7 * material**0.54 * weight**-0.13 * lines["radius_m"]
     elastic = lines["regime"] == "elastic-piezoviscous"
-    # heat of the inlet thins the film that the command gives
+    # the film of the result includes shear heating of the inlet
     if not (lines["h_min_m"] / film)[elastic].between(0.3, 1.01).all():
         wrong.append("minimum film beside Dowson and Higginson")
     # Martin 1916
@@ -264,7 +263,7 @@ def _nested(keys: Keys, group: str) -> dict[str, Keys]:
 
 
 def one(seed: int, number: int, solve: bool) -> Row:
-    """Run a machine by formulas, and solve it."""
+    """Compute a machine by formulas; with `solve` also solve it."""
     kind, keys = draw(seed, number)
     row: Row = {"number": number, "machine": kind, "values": keys, "status": RIGHT, "faults": []}
     try:
@@ -297,7 +296,7 @@ def _solved(keys: Keys, formulas: MachineResult) -> Row:
 
 
 def campaign(count: int, seed: int, solve: int) -> list[Row]:
-    """Give a row for each machine."""
+    """Return a row for each machine."""
     rows = []
     for number in range(count):
         row = one(seed, number, number < solve)
@@ -307,7 +306,7 @@ def campaign(count: int, seed: int, solve: int) -> list[Row]:
 
 
 def summary(rows: Sequence[Row]) -> list[Row]:
-    """Count by kind, and of all."""
+    """Count the rows by kind and in total."""
     result = []
     for name in (*MACHINES, "all"):
         mine = [row for row in rows if name in (row["machine"], "all")]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the benchmarks share: their command line, and the unit of time.
+"""Command line, tables and unit of time of the benchmarks.
 
-The unit is one elastic deflection by scipy.fft on the same grid: zero-padded, real, float64, one
-worker, kernel transformed beforehand.
+The unit is the time of one elastic deflection by scipy.fft on the same grid: zero-padded, real,
+float64, one worker, kernel transformed beforehand.
 """
 
 import argparse
@@ -15,7 +15,7 @@ import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-# products of small matrices are slower on several threads; before NumPy is loaded
+# products of small matrices are slower on several threads; set before NumPy is imported
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
@@ -35,7 +35,7 @@ Columns = Sequence[tuple[str, str]]
 
 
 def columns(text: str) -> Columns:
-    """Read names and formats, as in 'points:d error:.1e'."""
+    """Parse names and formats, as in 'points:d error:.1e'."""
     return [(name, form) for name, form in (word.split(":") for word in text.split())]
 
 
@@ -45,7 +45,7 @@ def say(text: str) -> None:
 
 
 def parser(text: str | None, **lists: Sequence[int]) -> argparse.ArgumentParser:
-    """Make the parser of a script from its docstring, with defaults of `points` and `threads`."""
+    """Make the parser of a script from its docstring; `lists` has defaults of its options."""
     made = argparse.ArgumentParser(description=(text or "").split("\n\n")[0], allow_abbrev=False)
     for name, default in lists.items():
         add_list(made, name, default, LISTS[name])
@@ -59,7 +59,7 @@ def add_list(
     what: str = "",
     known: Sequence[str] = (),
 ) -> None:
-    """Add an option of values with commas between: words, each one of `known`, or integers."""
+    """Add an option of comma-separated values: words, each one of `known`, or integers."""
     minimum = 1 if name == "threads" else 3
 
     def read(text: str) -> list[str] | list[int]:
@@ -92,7 +92,7 @@ def add_list(
 def add_number(
     to: argparse.ArgumentParser, name: str, default: float, what: str = "", *, minimum: float = 0
 ) -> None:
-    """Add an option that is a number of the type of its default, and at least `minimum`."""
+    """Add an option for a number of the type of its default, at least `minimum`."""
 
     def read(text: str) -> float:
         number = type(default)(text)
@@ -112,7 +112,7 @@ def measure(
     *,
     picture: bool = False,
 ) -> int:
-    """Run a script whose answer goes into a JSON file, with a picture beside it if it has one."""
+    """Run a script whose result goes into a JSON file, if requested, maybe beside a picture."""
     made.add_argument("-o", "--output", type=Path, metavar="FILE.json", help="write JSON too")
     args = made.parse_args(words)
 
@@ -129,19 +129,19 @@ def measure(
 
 
 def header(work: Callable[..., object]) -> dict[str, object]:
-    """Give the origin of a JSON file: script, processor and build."""
+    """Return the origin of a JSON file: script, processor and build."""
     return {"source": mark("bench"), "what": Path(work.__code__.co_filename).stem} | {
         "machine": machine()
     }
 
 
 def verdict(rows: Sequence[Row]) -> int:
-    """Exit status: 1 if a row is wrong, or skipped work would change its result."""
+    """Return the exit status: 1 if a row is wrong, or if skipping work changes its result."""
     return int(any(row.get("wrong") or not row.get("same", True) for row in rows))
 
 
 def show(rows: Sequence[Row], columns: Columns, *notes: str) -> None:
-    """Print a table, '-' for a value that does not exist, and notes below it."""
+    """Print a table, with '-' for missing values, and notes below it."""
     lines = [[name.replace("_", " ") for name, _ in columns]]
     lines += [
         ["-" if row[name] is None else format(row[name], form) for name, form in columns]
@@ -164,7 +164,7 @@ def kernel(nx: int, ny: int, hx: float, hy: float) -> Array:
 
 
 class ScipyDeflection:
-    """Zero-padded circular convolution by scipy.fft, the unit of all times."""
+    """Zero-padded circular convolution by scipy.fft, the unit of time."""
 
     def __init__(self, nx: int, ny: int, hx: float, hy: float) -> None:
         self.shape = nx, ny
@@ -185,7 +185,7 @@ class ScipyDeflection:
 
 
 def hertz(points: int) -> tuple[Array, float, Array, Mask]:
-    """Hertz pressure on a grid, its mesh size, the exact deflection, and where that holds."""
+    """Hertz pressure on a grid, its mesh size, and the exact deflection with its valid nodes."""
     x = np.linspace(X_INLET, X_OUTLET, points)
     y = np.linspace(-Y_EXTENT, Y_EXTENT, points)
     r2 = x[:, None] ** 2 + y[None, :] ** 2
@@ -204,20 +204,20 @@ def median_seconds(call: Callable[[], object]) -> float:
 
 
 def unit_seconds(points: int) -> float:
-    """Seconds of one deflection by scipy.fft on so many nodes per side."""
+    """Time one deflection by scipy.fft on `points` nodes per side [s]."""
     pressure, h, _, _ = hertz(points)
     deflection = ScipyDeflection(points, points, h, h)
     return median_seconds(lambda: deflection.apply(pressure))
 
 
 def processor_seconds() -> float:
-    """Seconds of the processor [s] of this process and of its children that have ended."""
+    """Processor time of this process and of its finished children [s]."""
     children = resource.getrusage(resource.RUSAGE_CHILDREN)
     return time.process_time() + children.ru_utime + children.ru_stime
 
 
 def machine() -> dict[str, str]:
-    """Name what times belong to: processor, and build of the library."""
+    """Name the processor and the build of the library to which the times belong."""
     information = Path("/proc/cpuinfo")
     text = information.read_text(encoding="utf-8") if information.is_file() else ""
     models = [line for line in text.splitlines() if line.startswith("model name")]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A problem as it is solved and with skipped work done: seconds, and the difference in a result."""
+"""Time and difference of results between the default and a run that does the skipped work."""
 
 from collections.abc import Callable
 from typing import Any
@@ -13,12 +13,12 @@ from pyehl.handle import SolverHandle, results_of
 from pyehl.prediction.simulation import transfer
 from pyehl.types import Row, Values
 
-# Bits cannot be equal where sums are taken in another order; the cycles may make it more
+# Sums in another order differ by rounding, which the cycles may amplify
 ROUNDING = 1e-10
 
 
 def timed(call: Callable[[], Values]) -> tuple[float, Values]:
-    """Give the processor seconds of something, and what it gave."""
+    """Return the processor time of a call, and its result."""
     began = processor_seconds()
     values = call()
     return processor_seconds() - began, values
@@ -26,14 +26,14 @@ def timed(call: Callable[[], Values]) -> tuple[float, Values]:
 
 def solve(*options: str) -> dict[str, Any]:
     """Solve the case of all defaults with options, on one thread; returns its summary."""
-    # what the solver does alone, nothing predicted
+    # the solver alone, without a prediction
     with SolverHandle(Case.from_text("", [*options, "solver.threads=1"]).text) as solver:
         solver.run()
         return results_of(solver).values
 
 
 def solve_from_prediction(*options: str) -> dict[str, Any]:
-    """Solve the same from the prediction on; what that costs is in it."""
+    """Solve the same case, starting from the prediction, whose cost is included."""
     case = Case.from_text("", [*options, "solver.threads=1", "time.start=prediction"])
     with SolverHandle(case.text) as solver:
         transfer(solver, case.resolve(), {}, whole=True)
@@ -51,9 +51,10 @@ def compare(
     *,
     besides: bool = False,
 ) -> Row:
-    """Make both; differences are relative, the greatest one where `quantity` is an array.
+    """Run both; the difference is relative, the largest one if `quantity` is an array.
 
-    `allowed` may hang on what the usual one gave; `besides`: the other is work on top of it.
+    `allowed` may depend on the result of `usual`; `besides`: the time of `other` adds to that of
+    `usual`.
     """
     (seconds, values), (without, others) = timed(usual), timed(other)
     one, two = (asarray(result[quantity], dtype=float) for result in (values, others))
@@ -74,12 +75,12 @@ def compare(
 
 
 def step_tolerance(values: Values) -> float:
-    """Algebraic error that a time step allows itself in mu_r/mu_s, of two runs."""
-    # a tenth of the error of order 2, which is a third of what is stated
+    """Tolerance of the algebraic error of a time step in mu_r/mu_s, for two runs."""
+    # a tenth of the second-order discretisation error, which is a third of the stated error
     return 2.0 * 0.1 * float(values["mu_ratio_error_grid"]) / 3.0 / float(values["mu_ratio"])
 
 
 def mean_tolerance(values: Values) -> float:
-    """Change of the mean at which a run ends, and the algebraic error of its steps."""
+    """Return the change of the mean at which a run ends plus the algebraic error of its steps."""
     stop = float(values["mu_ratio_error_stop"]) / float(values["mu_ratio"])
     return max(1e-3, stop) + step_tolerance(values)

@@ -12,7 +12,7 @@ from common import GRIDS, ScipyDeflection, columns, hertz, measure, median_secon
 from pyehl import library
 from pyehl.types import Array, Row
 
-# Share of the discretisation error that the error of a deflection may have
+# Error of a deflection requested, over the discretisation error
 SHARE = 0.1
 
 COLUMNS = columns(
@@ -24,15 +24,15 @@ MEANING = (
     "the largest deflection;\nshare: of the discretisation error of the sum; half: Y >= 0 of a "
     "symmetric pressure"
 )
-"""What the columns are."""
+"""Meaning of the columns."""
 
 
 def deflection_rows(grids: Sequence[int], threads: Sequence[int]) -> list[Row]:
     """Time and error of every engine on every grid, whole and half domain.
 
-    The error is relative to the largest deflection, against the sum that all engines
-    approximate (made by scipy.fft to rounding); the discretisation error is that of the sum
-    against the analytic deflection of the Hertz pressure, 1 - r^2/2.
+    The error is relative to the largest deflection, against the sum that all engines approximate
+    (computed by scipy.fft to rounding); the discretisation error is that of the sum against the
+    analytic deflection of the Hertz pressure, 1 - r^2/2.
     """
     rows: list[Row] = []
     for points in grids:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random duties, and with --inlets random inlets short of oil: how they end, and their errors.
+"""Convergence and error estimates of random duties or, with --inlets, of random starved inlets.
 
 Circles, ellipses, lines and rollers, smooth and rough, with shear laws and boundary films, whose
-load, speed, radius and viscosity change in waves, steps and reversals. The stated errors of the
+load, speed, radius and viscosity change in waves, steps and reversals. The error estimates of the
 time steps are compared with runs of half the step at every instant, those of the results with
-solutions on twice the nodes (not rollers). Grids have 65 nodes along X (lines 129), and twice or
-four times as many where there is no positive film.
+solutions on twice the nodes (except rollers). Grids have 65 nodes along X (lines 129), and two or
+four times as many if the film becomes negative.
 """
 
 import argparse
@@ -35,18 +35,18 @@ EXTREMES = (
     *("power_max_W", "flash_max_K"),
 )
 TOLERANCE = 5e-5
-"""Relative error that the tolerance of a step leaves."""
+"""Relative error from the convergence tolerance of a step."""
 POINTS = {"circle": 65, "ellipse": 65, "line": 129, "roller": 65}
-MOST_REFINED = 2
-"""How often a grid without a positive film is refined."""
+MAX_REFINEMENTS = 2
+"""Maximum number of refinements of a grid on which the film becomes negative."""
 REFUSED = "refused"
 COLUMNS = columns(
     "contacts:s drawn:d converged:d refused:d median_seconds:.2f largest_seconds:.1f "
     "steps_covered:.3f worst_steps:.2f extremes:d extremes_covered:d worst_extreme:.2f"
 )
 MEANING = (
-    "seconds: of the processor, one thread; steps covered: share of instants at which the stated "
-    "error of h_c, h_min\nand p_max is at least the difference to half the time step; extremes: "
+    "seconds: of the processor, one thread; steps covered: fraction of instants at which the error "
+    "stated of h_c, h_min\nand p_max is at least the difference to half the time step; extremes: "
     "compared with twice the nodes; worst: difference over error"
 )
 INLET_COLUMNS = columns(
@@ -56,12 +56,12 @@ INLET_COLUMNS = columns(
 
 
 def _scale(rng: np.random.Generator, low: float, high: float) -> float:
-    """Draw evenly in the logarithm."""
+    """Draw a number, log-uniformly."""
     return float(f"{np.exp(rng.uniform(np.log(low), np.log(high))):.4g}")
 
 
 def contact(rng: np.random.Generator, shape: str) -> dict[str, Any]:
-    """Draw the steady case; the load follows from the Hertz pressure."""
+    """Draw the steady case, with a load for a realistic Hertz pressure."""
     keys: dict[str, Any] = {"mean_velocity": _scale(rng, 0.2, 10.0)}
     keys["slide_to_roll"] = round(float(rng.uniform(0.0, 1.0)), 3)
     radius = _scale(rng, 4e-3, 0.02)
@@ -81,7 +81,7 @@ def contact(rng: np.random.Generator, shape: str) -> dict[str, Any]:
         keys |= {"profile": "crown", "crown_radius": crown}
     else:
         across = keys.get("radius_y", radius)
-        # about 0.4 to 1.3 GPa
+        # Hertz pressure of about 0.4 to 1.3 GPa
         keys["load"] = float(f"{_scale(rng, 2e4, 7e5) * radius**0.8 * across**1.2:.4g}")
     values = {f"contact.{key}": value for key, value in keys.items()}
     values["lubricant.viscosity"] = _scale(rng, 0.01, 0.2)
@@ -95,7 +95,7 @@ def contact(rng: np.random.Generator, shape: str) -> dict[str, Any]:
 
 
 def duty(rng: np.random.Generator, shape: str) -> tuple[str, dict[str, Any]]:
-    """Draw a case under a duty, and its kind."""
+    """Draw a case under a duty; returns the kind of the duty and the case."""
     values = contact(rng, shape)
     kind = str(rng.choice(KINDS))
     one = scaling_contact(Case.from_text("", values).resolve())
@@ -133,10 +133,10 @@ def duty(rng: np.random.Generator, shape: str) -> tuple[str, dict[str, Any]]:
         film = pyehl.film(Case.from_text("", _steady(values))).formulas[0]["h_c_m"]
         if rng.random() < 0.5:
             values |= {"surface.kind": "harmonic", "surface.wavelength": 1.0}
-            share = rng.uniform(0.05, 0.3)
-            height = film / one.film_scale * share
-            # a wave above a^2/R, in a thick film, is given as its share
-            name, value = ("amplitude_over_film", share) if height > 1.0 else ("amplitude", height)
+            ratio = rng.uniform(0.05, 0.3)
+            height = film / one.film_scale * ratio
+            # in a thick film an amplitude above a^2/R is given over the film
+            name, value = ("amplitude_over_film", ratio) if height > 1.0 else ("amplitude", height)
             values[f"surface.{name}"] = float(f"{value:.3g}")
         else:
             values["lubricant.boundary_film"] = float(f"{film * rng.uniform(0.3, 1.0):.3g}")
@@ -149,7 +149,7 @@ def _steady(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def inlet(rng: np.random.Generator, shape: str) -> tuple[str, dict[str, Any]]:
-    """Draw a case whose inlet is short of oil, and how."""
+    """Draw a case with a starved inlet; returns how it is starved, and the case."""
     values = contact(rng, shape)
     case = Case.from_text("", values)
     one, film = scaling_contact(case.resolve()), float(pyehl.film(case).formulas[0]["h_c_m"])
@@ -164,19 +164,19 @@ def inlet(rng: np.random.Generator, shape: str) -> tuple[str, dict[str, Any]]:
 
 
 def solve(values: Mapping[str, Any], **more: Any) -> tuple[xr.Dataset, float]:  # noqa: ANN401
-    """Solve, also to no solution; with the seconds of the processor."""
+    """Solve, converged or not; returns the result and the processor time [s]."""
     began = resource.getrusage(resource.RUSAGE_SELF).ru_utime
     result = pyehl.solve(Case.from_text("", dict(values) | more), check=False)
     return result, resource.getrusage(resource.RUSAGE_SELF).ru_utime - began
 
 
 def solve_on_enough(values: dict[str, Any]) -> tuple[xr.Dataset, float]:
-    """Solve, on twice the nodes where there is no positive film, as the message of that says.
+    """Solve, on twice the nodes where the film becomes negative, as that message recommends.
 
-    `values` have those nodes afterwards, for the runs that are compared.
+    `values` then have these nodes, for the runs to compare with.
     """
     result, seconds = solve(values)
-    for _ in range(MOST_REFINED):
+    for _ in range(MAX_REFINEMENTS):
         if result.attrs["status"] != "negative film":
             break
         values["grid.points"] = 2 * values["grid.points"] - 1
@@ -186,7 +186,7 @@ def solve_on_enough(values: dict[str, Any]) -> tuple[xr.Dataset, float]:
 
 
 def finer(values: Mapping[str, Any], result: xr.Dataset) -> dict[str, int]:
-    """Twice the nodes."""
+    """Return the keys for twice the nodes."""
     keys = {"grid.points": 2 * values["grid.points"] - 1}
     if result.sizes["Y"] > 1 and values.get("contact.shape") != "line":
         keys["grid.points_y"] = 2 * result.sizes["Y"] - 1
@@ -194,13 +194,13 @@ def finer(values: Mapping[str, Any], result: xr.Dataset) -> dict[str, int]:
 
 
 def step_errors(result: xr.Dataset, half: xr.Dataset) -> tuple[float, float]:
-    """Share of instants that stated errors cover, and largest difference over largest error."""
+    """Fraction of instants covered by the stated errors; largest difference over largest error."""
     errors = [result[f"history_{name}_step_error"].values for name in ("c", "min", "p")]
     holds: list[Array] = []
     worst = 0.0
     for name, error in zip(FILMS, errors, strict=True):
         values = result[f"history_{name}"].values
-        # half the step leaves a quarter of the error
+        # at second order half the step has a quarter of the error
         other = np.interp(result.history_t_s, half.history_t_s, half[f"history_{name}"])
         difference = np.abs(other / values - 1.0) * 4.0 / 3.0
         holds.append(difference <= error + TOLERANCE)
@@ -209,8 +209,8 @@ def step_errors(result: xr.Dataset, half: xr.Dataset) -> tuple[float, float]:
 
 
 def shares_covered(result: xr.Dataset, half: xr.Dataset) -> dict[str, float]:
-    """Share of instants at which stated errors cover that of the steps: friction, load share."""
-    shares = {}
+    """Fractions of instants at which stated errors of friction and load share cover the steps'."""
+    covered = {}
     for name, error in (("mu", "mu_step_error"), ("load_share", "load_share_error")):
         if f"history_{name}" not in result or not np.isfinite(result[f"history_{name}"]).all():
             continue
@@ -218,12 +218,12 @@ def shares_covered(result: xr.Dataset, half: xr.Dataset) -> dict[str, float]:
         other = np.interp(result.history_t_s, half.history_t_s, half[f"history_{name}"])
         difference = np.abs(other - values) * 4.0 / 3.0
         tolerance = TOLERANCE * np.abs(values).max()
-        shares[f"{name}_covered"] = float(np.mean(difference <= stated + tolerance))
-    return shares
+        covered[f"{name}_covered"] = float(np.mean(difference <= stated + tolerance))
+    return covered
 
 
 def extremes(result: xr.Dataset, fine: xr.Dataset) -> dict[str, float]:
-    """Differences of extremes to those on twice the nodes, over their stated errors."""
+    """Differences of the extremes from those on twice the nodes, over their stated errors."""
     ratios = {}
     for name in EXTREMES:
         stem, _, unit = name.rpartition("_")
@@ -236,7 +236,7 @@ def extremes(result: xr.Dataset, fine: xr.Dataset) -> dict[str, float]:
 
 
 def one_duty(values: dict[str, Any]) -> Row:
-    """Solve a duty, with half the step, and on twice the nodes."""
+    """Solve a duty, also with half the step and on twice the nodes."""
     result, seconds = solve_on_enough(values)
     row: Row = {"status": result.attrs["status"], "seconds": seconds}
     row["message"] = result.attrs.get("message")
@@ -249,7 +249,7 @@ def one_duty(values: dict[str, Any]) -> Row:
         row["steps_covered"], row["worst_steps"] = step_errors(result, half)
         row |= shares_covered(result, half)
     if values.get("contact.shape") == "roller":
-        # on twice the nodes it takes ten times as long as all others
+        # on twice the nodes a roller takes ten times as long as all other runs
         return row
     fine, _ = solve(values, **finer(values, result))
     row["fine_status"] = fine.attrs["status"]
@@ -259,7 +259,7 @@ def one_duty(values: dict[str, Any]) -> Row:
 
 
 def one_inlet(values: dict[str, Any]) -> Row:
-    """Solve a starved contact, and on twice the nodes."""
+    """Solve a starved contact, also on twice the nodes."""
     result, seconds = solve_on_enough(values)
     row: Row = {"status": result.attrs["status"], "seconds": seconds}
     row["message"] = result.attrs.get("message")
@@ -274,11 +274,11 @@ def one_inlet(values: dict[str, Any]) -> Row:
 
 
 def campaign(count: int, seed: int, *, inlets: bool) -> list[Row]:
-    """Solve so many cases of a seed; a row for each, the first ones the same whatever the count."""
+    """Solve `count` cases of a seed; a row for each, the first rows independent of `count`."""
     rows: list[Row] = []
     for number in range(count):
         rng = np.random.default_rng((seed, number))
-        # a layer of oil, or a border that it begins at, is for other shapes
+        # rollers have no &inlet
         shape = SHAPES[number % (3 if inlets else 4)]
         kind, values = (inlet if inlets else duty)(rng, shape)
         try:
@@ -305,7 +305,7 @@ def _common(name: str, rows: Sequence[Row]) -> Row:
 
 
 def duties_of(name: str, rows: Sequence[Row]) -> Row:
-    """Count."""
+    """Summarise the rows of duties."""
     steps = [row["steps_covered"] for row in rows if "steps_covered" in row]
     ratios = [r for row in rows for r in row.get("extremes", {}).values()]
     return _common(name, rows) | {
@@ -320,8 +320,8 @@ def duties_of(name: str, rows: Sequence[Row]) -> Row:
 
 
 def inlets_of(name: str, rows: Sequence[Row]) -> Row:
-    """Count."""
-    # errors of 1 and more are none
+    """Summarise the rows of inlets."""
+    # only rows with an error estimate
     checked = [
         row
         for row in rows

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Kills, damaged states and hostile input, from a seed.
+"""Fault injection: killed processes, damaged checkpoints and hostile input, from a seed.
 
-Nothing may be lost, no run may leave half a folder, no input may end in a traceback or a hang, and
-a run that was killed and resumed gives the bits of an unbroken one.
+No result may be lost, no run may leave an incomplete folder, no input may end in a traceback or a
+hang, and a run that was killed and resumed gives the bits of an uninterrupted one.
 """
 
 import argparse
@@ -32,18 +32,18 @@ CASE = """&contact moes_m = 100.0 moes_l = 6.0 /
 &surface kind = 'harmonic' amplitude_over_film = 0.2 wavelength = 1.0 /
 &output checkpoint_interval = 0.01 frame_interval = 0.5 /
 """
-# Times do not repeat
+# Entries that differ between runs
 TIMES = ("wall_seconds", "seconds_per_step", "seconds", "bytes")
 REGIONS = 32
-"""Parts of a state; a byte of each is flipped in turn."""
+"""Number of regions of a checkpoint; a byte of each is flipped in turn."""
 
 
 def campaign(folder: Path, *, seed: int = 1, kills: int = 200, inputs: int = 2000) -> list[Row]:
-    """Do all of it in an empty folder; rows with `COLUMNS`, and `bad`, a list of what must not be.
+    """Run all campaigns in an empty folder; returns rows of `COLUMNS`, with failures in `bad`.
 
-    `seed` is that of the instants, the bytes and the inputs. Of the processes killed six in ten
-    solve, three make a sweep, one exports; `inputs` is the number of mutated case files, study
-    files and height maps.
+    `seed` determines instants, bytes and inputs. Of ten killed processes six solve, three run a
+    sweep and one exports; `inputs` is the number of mutated case files, study files and height
+    maps.
     """
     generator = np.random.default_rng(seed)
     (folder / "case.nml").write_text(CASE, encoding="utf-8")
@@ -68,7 +68,7 @@ def _row(name: str, trials: int, counts: dict[str, int], bad: list[str]) -> Row:
 
 
 def command(*words: str) -> list[str]:
-    """Give the command line of ``pyehl``."""
+    """Return the command line of ``pyehl``."""
     return [sys.executable, "-P", "-m", "pyehl", *words]
 
 
@@ -89,7 +89,7 @@ def run(
 
 
 def _killed(folder: Path, words: Sequence[str], after: float) -> bool:
-    """Start a command and kill it after so many seconds; whether it was still running."""
+    """Start a command and kill it after some seconds; returns whether it was still running."""
     process = subprocess.Popen(
         command(*words), cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )
@@ -108,7 +108,7 @@ def _values(path: Path) -> dict[str, Any]:
 
 
 def same(one: Path, two: Path) -> str:
-    """Compare two result folders; '' where all bits are the same, else what differs."""
+    """Compare two result folders; returns what differs, '' if all bits are equal."""
     names = sorted(p.name for p in one.iterdir())
     if names != sorted(p.name for p in two.iterdir()):
         return f"files {names} and {sorted(p.name for p in two.iterdir())}"
@@ -144,7 +144,7 @@ def _kill_runs(folder: Path, generator: np.random.Generator, kills: int) -> Foun
 
 
 def _go_on(out: Path) -> list[str]:
-    """Words that begin a run, or resume it where it has left a state."""
+    """Arguments that start a run, or resume it if it has left a checkpoint."""
     resumed = out.with_name(f"{out.name}.checkpoint").exists()
     return ["run", "--resume", out.name] if resumed else ["run", "case.nml", "-o", out.name]
 
@@ -209,14 +209,14 @@ def _kill_exports(folder: Path, generator: np.random.Generator, kills: int) -> F
 
 
 def damage(folder: Path, generator: np.random.Generator) -> Found:
-    """Flip a byte of every region of the newest state, or of both, and resume.
+    """Flip a byte in every region of the newest checkpoint, or of both, and resume.
 
-    A damaged state is noticed: the older one, or the beginning, takes its place, and the bits are
-    those of an unbroken run.
+    A damaged checkpoint must be detected: the run resumes from the older one, or starts again, and
+    gives the bits of an uninterrupted run.
     """
     counts: Counter[str] = Counter()
     bad: list[str] = []
-    # a run that is not converged leaves its states
+    # a run that is not converged leaves its checkpoints
     run(folder, "run", "case.nml", "-o", "state", "--set", "time.steps=60")
     kept = folder / "state.checkpoint"
     if not kept.is_dir():
@@ -265,7 +265,7 @@ def _flip(path: Path, region: int, generator: np.random.Generator) -> None:
 
 
 def work(args: argparse.Namespace) -> int:
-    """Run the campaign and print; exit status."""
+    """Run the campaign and print; returns the exit status."""
     Destination(args.output, "bench faults").check()
     args.output.mkdir(parents=True, exist_ok=True)
     rows = campaign(args.output.resolve(), seed=args.seed, kills=args.kills, inputs=args.inputs)

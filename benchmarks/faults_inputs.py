@@ -21,7 +21,7 @@ from pyehl.errors import EhlError
 
 Command = Callable[[Sequence[str]], int]
 CHUNK = 250
-"""Inputs tried by a child process, which may not take longer than HANG seconds."""
+"""Number of inputs that a child process tries, which may not take longer than HANG seconds."""
 HANG = 900.0
 CHILD = (
     f"import json, sys; sys.path.insert(0, {str(Path(__file__).parent)!r}); "
@@ -79,12 +79,12 @@ WORDS = (
     *(b"1e-12", b"4097", b"2147483647", b"'/dev/zero'"),
     *(b".true.", b"3*1.0", b"(1)", b"&grid", b"points", b"../../etc/passwd", b"%s%n", b"{}", b"#"),
 )
-# Limits of what is solved quickly
-MOST_POINTS, MOST_STEPS = 65, 50
+# Limits of a case that is solved quickly
+MAX_POINTS, MAX_STEPS = 65, 50
 
 
 def mutate(data: bytes, generator: np.random.Generator) -> bytes:
-    """Change some bytes: replaced, taken out, doubled, moved, or hostile words put in."""
+    """Change some bytes: replace, delete or double them, truncate, or insert hostile words."""
     text = bytearray(data)
     for _ in range(int(generator.choice((1, 1, 2, 3)))):
         at = int(generator.integers(0, len(text) + 1))
@@ -99,7 +99,7 @@ def mutate(data: bytes, generator: np.random.Generator) -> bytes:
         elif kind == 3:
             text[at:at] = WORDS[int(generator.integers(0, len(WORDS)))]
         elif kind == 4:
-            # a value in place of a value
+            # replace a value by a hostile word
             values = list(re.finditer(rb"[-+.\w]+", bytes(text)))
             if values:
                 result = values[int(generator.integers(0, len(values)))]
@@ -126,8 +126,8 @@ def run_chunk(seed: int, count: int, folder: Path, command: Command) -> dict[str
     Returns
     -------
     dict
-        `counts` of 'refused', 'solved', 'not converged', 'accepted'; `bad`, a list of what must
-        not be: tracebacks, refusals without a place, half-written folders.
+        `counts` of 'refused', 'solved', 'not converged', 'accepted'; `bad`, a list of failures:
+        tracebacks, refusals without a position, incomplete folders.
     """
     generator = np.random.default_rng(seed)
     counts: Counter[str] = Counter()
@@ -173,7 +173,7 @@ def _one(kind: str, folder: Path, label: str, command: Command) -> str:  # noqa:
         return f"bad: traceback\n{reported}"
     if status == 2:
         place = {"nml": "case.nml", "toml": "study.toml", "npy": "map.npy"}[kind]
-        # a case that can be read, and not solved, is reported by its keys
+        # a readable case that cannot be solved is reported by its keys
         if place not in reported and not re.search(r"\w+\.\w+|&\w+|grid of", reported):
             return f"bad: refused without a place: {reported}"
         return f"bad: folder {out}" if out.exists() else "refused"
@@ -189,7 +189,7 @@ def _one(kind: str, folder: Path, label: str, command: Command) -> str:  # noqa:
 
 
 def _small(case: Path) -> bool:
-    """Whether the case can be read and is solved quickly."""
+    """Whether a case can be read and is solved quickly."""
     try:
         settings = Case(case).resolve()
     except EhlError:
@@ -197,12 +197,12 @@ def _small(case: Path) -> bool:
     steps = int(settings["time"]["steps"])
     moving = settings["surface"]["kind"] != "smooth"
     target = float(settings["grid"]["target_error"]) > 0.0
-    small = int(settings["grid"]["points"]) <= MOST_POINTS and not target
-    return small and (not moving or 0 < steps <= MOST_STEPS)
+    small = int(settings["grid"]["points"]) <= MAX_POINTS and not target
+    return small and (not moving or 0 < steps <= MAX_STEPS)
 
 
 def mutated(folder: Path, seed: int, inputs: int) -> Found:
-    """Try mutated inputs in child processes, so that a crash or a hang is seen."""
+    """Try mutated inputs in child processes, so that a crash or a hang is detected."""
     counts: Counter[str] = Counter()
     bad: list[str] = []
     for chunk, first in enumerate(range(0, inputs, CHUNK)):

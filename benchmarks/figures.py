@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pyehl.plots import style
 from pyehl.types import Array, Values
 
-# Outcome: marker, colour (Okabe & Ito) and what is written in the key
+# Outcome: marker, colour (Okabe & Ito) and entry in the legend
 OUTCOMES = {
     "converged": ("o", style.GREEN, "converged"),
     "ended": (".", "0.45", "all steps asked for converged"),
@@ -23,8 +23,8 @@ OUTCOMES = {
     "other": ("*", style.ORANGE, "other"),
 }
 
-# Settings in the picture, with colour and marker; errors and times of the others are so near
-# those of the default that their lines hide it: they are in the table
+# Settings in the picture, with label, colour and marker; the others, whose lines would cover that
+# of the default, are only in the table
 SETTINGS = {
     "default": ("default", style.BLUE, "o"),
     "fft": ("deflection by FFT", style.ORANGE, "s"),
@@ -52,7 +52,7 @@ def _kind(row: Values) -> str:
 
 @style.styled()
 def draw_outcomes(rows: Sequence[Values], path: Path) -> None:
-    """Draw outcomes of a stress campaign over M and L: smooth contacts, and rough ones by grid."""
+    """Draw outcomes of a stress campaign over M and L: smooth contacts, then rough ones by grid."""
     grids = sorted({row["values"]["grid.points"] for row in rows})
     panels: list[tuple[str, list[Values]]] = [
         ("smooth, all grids", [row for row in rows if row["family"] == "smooth"])
@@ -105,7 +105,7 @@ def draw_work(rows: Sequence[Values], path: Path) -> None:
     for ax, (problem, quantity) in zip(axes.flat, problems, strict=False):
         mine = [row for row in rows if (row["problem"], row["quantity"]) == (problem, quantity)]
         for setting, (name, colour, marker) in SETTINGS.items():
-            # the deflection costs time of a smooth contact, hardly of a step
+            # the deflection dominates the time of a smooth contact, not of a time step
             if setting == "fft" and problem != "smooth":
                 continue
             for more, line, face in (("", "-", colour), (EXTRAPOLATED, "--", "none")):

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Smooth contacts of machines at default settings.
+"""Convergence, cost and error estimates of smooth machine contacts at default settings.
 
-Which converge, what they cost on one thread, and whether the stated errors hold. A contact follows
-from the seed and its number alone. The processor's time is that of the solution in this process,
-so that Python's start is not in it and the load of the machine hardly.
+Seed and number determine a contact. The time is the processor time of the solution in this process,
+on one thread: it excludes the start of Python and depends little on the load of the computer.
 """
 
 import argparse
@@ -29,15 +28,15 @@ from pyehl.types import Row
 MODULUS = 2.26e11
 """E' of steel on steel [Pa]."""
 WIDEST = 240.0
-"""Largest R_y/R_x: an ellipse of kappa = 30."""
+"""Largest R_y/R_x, for kappa = 30."""
 WIDE = 4.0
-"""Contacts of a larger kappa are wide."""
+"""Contacts with a larger kappa count as wide."""
 LAWS = ("newtonian", "eyring", "carreau")
 SETTINGS: dict[str, Any] = {"solver.threads": 1}
-"""Everything else is as by default."""
+"""All other settings are the defaults."""
 QUANTITIES = ("H_c", "H_min")
 REFUSED = "refused"
-"""Status of a contact whose case is no input."""
+"""Status of a contact whose case is not valid."""
 KEPT = (
     *("status", "message", "moes_m", "moes_l", "points", "points_y", "cycles", "total_cycles"),
     *("restarts", "H_c", "H_c_error", "H_c_error_grid", "H_min", "H_min_error"),
@@ -53,7 +52,7 @@ MEANING = (
     "ball on disc;\nchecked: solved on twice the nodes too (--fine); covered: the error against "
     "those, extrapolated, is at most the stated one"
 )
-"""What the columns are."""
+"""Meaning of the columns."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,13 +61,13 @@ class Contact:
 
     kind: str
     ellipticity: float | None  # semi-axis across the motion over that along it; None: a line
-    pressure: float  # of Hertz, maximum [Pa]
+    pressure: float  # maximum Hertz pressure [Pa]
     values: Mapping[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
 class _Shape:
-    """Radii [m], and ranges: pressure of Hertz [Pa], mean velocity [m/s], slide-to-roll ratio."""
+    """Radii [m], and ranges of Hertz pressure [Pa], mean velocity [m/s], slide-to-roll ratio."""
 
     radius_x: float
     radius_y: float
@@ -78,12 +77,12 @@ class _Shape:
 
 
 def _scale(rng: np.random.Generator, low: float, high: float) -> float:
-    """Draw evenly in the logarithm."""
+    """Draw a number, log-uniformly."""
     return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
 
 def _bearing(rng: np.random.Generator) -> _Shape:
-    """Ball of 3 to 40 mm on an inner ring; the groove has 0.51 to 0.53 of the ball's diameter."""
+    """Draw a ball of 3 to 40 mm on an inner ring with an osculation of 0.51 to 0.53."""
     ball = _scale(rng, 3e-3, 0.04)
     ring = 0.5 * ball * (rng.uniform(4.0, 8.0) - 1.0)
     groove = ball * rng.uniform(0.51, 0.53)
@@ -92,26 +91,26 @@ def _bearing(rng: np.random.Generator) -> _Shape:
 
 
 def _gear(rng: np.random.Generator) -> _Shape:
-    """Flank with a crown of 8 to 200 times its radius."""
+    """Draw a flank with a crowning radius of 8 to 200 times its radius."""
     along = _scale(rng, 3e-3, 0.03)
     return _Shape(along, along * _scale(rng, 8.0, 200.0), (0.5e9, 1.8e9), (0.5, 20.0), 0.8)
 
 
 def _ball(rng: np.random.Generator) -> _Shape:
-    """Ball of a tribometer on its disc."""
+    """Draw a ball on disc of a tribometer."""
     radius = _scale(rng, 4e-3, 0.0127)
     return _Shape(radius, radius, (0.4e9, 1.3e9), (0.02, 4.0), 1.0)
 
 
 def _roller(rng: np.random.Generator) -> _Shape:
-    """Roller of R_x = 2 to 20 mm with a crown of 0.1 to 3 m."""
+    """Draw a roller of R_x = 2 to 20 mm with a crown radius of 0.1 to 3 m."""
     along = _scale(rng, 2e-3, 0.02)
     across = min(_scale(rng, 0.1, 3.0), WIDEST * along)
     return _Shape(along, across, (0.6e9, 2.5e9), (0.3, 15.0), 0.1)
 
 
 def _along(rng: np.random.Generator) -> _Shape:
-    """Roller that moves along its axis: R_y of 2 to 20 mm, R_x of 2 to 110 times that."""
+    """Draw a roller that moves along its axis: R_y of 2 to 20 mm, R_x of 2 to 110 times that."""
     across = _scale(rng, 2e-3, 0.02)
     return _Shape(across * _scale(rng, 2.0, 110.0), across, (0.4e9, 1.8e9), (0.1, 15.0), 0.5)
 
@@ -128,16 +127,16 @@ NARROW: dict[str, Callable[[np.random.Generator], _Shape]] = {
     "roller along its axis": _along,
     DISC: _ball,
 }
-"""The same of narrow contacts, kappa from 0.05 to 0.65."""
+"""Kinds of narrow contacts, kappa from 0.05 to 0.65, drawn in turn with balls on discs."""
 
 
 def draw(count: int, seed: int) -> list[Contact]:
-    """Draw contacts: the first ones are the same whatever the count."""
+    """Draw contacts; the first ones do not depend on `count`."""
     return _in_turn(KINDS, count, seed)
 
 
 def draw_narrow(count: int, seed: int) -> list[Contact]:
-    """Draw contacts that move along their longer axis, and balls on discs in turn: as `draw`."""
+    """Draw contacts that move along their longer axis, in turn with balls on discs, as `draw`."""
     return _in_turn(NARROW, count, seed)
 
 
@@ -170,7 +169,7 @@ def _one(kind: str, shape: _Shape, rng: np.random.Generator) -> Contact:
     keys = {key: float(f"{value:.4g}") for key, value in keys.items()}
     pressure = rng.uniform(*shape.pressure)
     unloaded = _point(keys, 1.0)
-    # the pressure of Hertz goes with the cube root of the load
+    # the Hertz pressure is proportional to the cube root of the load
     load = float(f"{(pressure / unloaded.hertz_pressure) ** 3:.4g}")
     values: dict[str, Any] = {"contact.reduced_modulus": MODULUS, "contact.load": load, **keys}
     values["lubricant.shear_law"] = law
@@ -178,7 +177,7 @@ def _one(kind: str, shape: _Shape, rng: np.random.Generator) -> Contact:
 
 
 def draw_lines(count: int, seed: int) -> list[Contact]:
-    """Draw line contacts, in SI units and by M and L in turn: as `draw`."""
+    """Draw line contacts, in turn in SI units and by M and L, as `draw`."""
     kinds = ("line, SI units", "line, M and L")
     return [_line(kinds[k % 2], np.random.default_rng((seed, k))) for k in range(count)]
 
@@ -217,7 +216,7 @@ def _line(kind: str, rng: np.random.Generator) -> Contact:
 
 
 def draw_numbers(count: int, seed: int) -> list[Contact]:
-    """Draw ellipses by kappa, and by M and L of the round contact with the same equations."""
+    """Draw ellipses by kappa, and by M and L of the circular contact with the same equations."""
     return [_ellipse(np.random.default_rng((seed, k))) for k in range(count)]
 
 
@@ -258,14 +257,14 @@ def _point(keys: Mapping[str, float], load: float) -> OperatingPoint:
 
 
 DRAWS = {"ellipse": draw, "narrow": draw_narrow, "line": draw_lines, "numbers": draw_numbers}
-"""Machines; narrow contacts; line contacts; ellipses by M, L and kappa."""
+"""Draws by the option ``--shape``."""
 
 
 def campaign(count: int, seed: int, *, fine: bool = False, shape: str = "ellipse") -> list[Row]:
-    """Solve so many contacts of a seed, one of `DRAWS`; a row for each.
+    """Solve `count` contacts of a seed, of one of `DRAWS`; returns a row for each.
 
-    With `fine` each that converged is solved on twice the nodes, too: `H_c_fine` and `H_min_fine`
-    are extrapolated from these.
+    With `fine` each converged one is also solved on twice the nodes: `H_c_fine` and `H_min_fine`
+    are the values extrapolated from there.
     """
     rows: list[Row] = []
     for number, contact in enumerate(DRAWS[shape](count, seed)):
@@ -289,7 +288,7 @@ def campaign(count: int, seed: int, *, fine: bool = False, shape: str = "ellipse
 
 
 def _finer(row: Row) -> dict[str, int]:
-    """Give keys of a grid with twice the nodes along each axis."""
+    """Return the keys of a grid with twice the nodes along each axis."""
     keys = {"grid.points": 2 * row["points"] - 1}
     if row["points_y"] is not None:
         keys["grid.points_y"] = 2 * row["points_y"] - 1
@@ -300,14 +299,14 @@ def _solved(contact: Contact, more: Mapping[str, Any]) -> Row:
     try:
         result = timed(dict(contact.values) | SETTINGS | dict(more))
     except InputError as error:
-        # M beyond what a case may have
+        # M is beyond the range of a case
         result = {"status": REFUSED, "message": str(error), "seconds": None}
     names = ("seconds", *KEPT, *(f"{name}_extrapolated" for name in QUANTITIES))
     return {name: result.get(name) for name in names}
 
 
 def timed(keys: Mapping[str, Any]) -> Row:
-    """Solve a case: its summary, and `seconds` of the processor."""
+    """Solve a case; returns its summary with the processor time `seconds`."""
     case = Case.from_text("", keys)
     began = resource.getrusage(resource.RUSAGE_SELF).ru_utime
     with Solver(case) as solver:
@@ -317,7 +316,7 @@ def timed(keys: Mapping[str, Any]) -> Row:
 
 
 def covered(row: Row, name: str, error: str) -> bool | None:
-    """Whether an error of a row covers the difference to the finer grid; None: not checked."""
+    """Whether an error of a row covers the difference from the finer grid; None: not checked."""
     value, finer, stated = row[name], row[f"{name}_fine"], row[f"{name}_{error}"]
     if None in (value, finer, stated):
         return None
@@ -325,7 +324,7 @@ def covered(row: Row, name: str, error: str) -> bool | None:
 
 
 def summary(rows: Sequence[Row]) -> list[Row]:
-    """Count and time by kind, of the wide ones, and of all."""
+    """Summarise counts and times by kind, of the wide contacts, and of all."""
     discs = [row["seconds"] for row in rows if row["kind"] == DISC and row["seconds"]]
     unit = statistics.median(discs) if discs else None
     kinds = dict.fromkeys([*KINDS, *(row["kind"] for row in rows)])

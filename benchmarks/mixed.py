@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Predictions of contacts at a boundary film beside solutions of the same contacts.
+"""Compare predictions of contacts with a boundary film with solutions of the same contacts.
 
-A contact follows from the seed and its number alone. Of each the smooth contact under its
-prediction is compared with a solution on the same grid, a prediction whose roughness vanishes with
-the same solution, and the prediction with a simulation of the rough contact. The numbers of every
-summary must be consistent (`contradictions`).
+Seed and number determine a contact. For each one, the smooth contact of its prediction is compared
+with a solution on the same grid, a prediction with vanishing roughness with the same solution, and
+the prediction with a simulation of the rough contact. The numbers of every summary must be
+consistent (`contradictions`).
 """
 
 import argparse
@@ -29,18 +29,18 @@ from pyehl.types import Row
 GRIDS = (65, 129)
 """Nodes along X of the simulations."""
 LENGTH = 4.0
-"""Of the domain along X [a]."""
+"""Length of the domain along X [a]."""
 NODES = 8
-"""Of the shortest wave."""
+"""Nodes per shortest wavelength."""
 SAME = 1e-9
 """Largest relative difference of two values of one quantity."""
 ENDED = 1e-3
-"""That of solutions whose cycles ended at another residual."""
+"""Largest relative difference of solutions whose cycles ended at different residuals."""
 MIN_M, MAX_M = 100.0, 1000.0
-"""M: the range of the response of most contacts."""
+"""Range of M, within that of the response for most contacts."""
 POINTS_ERROR = 0.02
-"""Error of friction and load share as sums over the points of a prediction, which are not the nodes
-of a solution."""
+"""Error of friction and load share from sums over the points of a prediction, which are not the
+nodes of a solution."""
 NO_HEIGHT = 1e-13
 """Rms height [m] of a surface whose prediction is that of the smooth contact."""
 FILMS = ("h_c_m", "h_min_m", "p_max_Pa")
@@ -54,22 +54,22 @@ MEANING = (
     "and says why;\nfailed: no solution; wrong: a difference above the stated errors, or numbers "
     "that contradict each other;\nlargest ratio: of a difference of load shares to what is stated"
 )
-"""What the columns are."""
+"""Meaning of the columns."""
 
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """A contact and the keys of its case; those of its surface apart."""
+    """A contact with the keys of its case; those of its surface are separate."""
 
     number: int
     points: int  # nodes along X of the simulation
-    over: float  # boundary film over the central film by formula, both under pressure
+    over: float  # boundary film over the central film by formula, both at the Hertz pressure
     keys: Mapping[str, Any]
     surface: Mapping[str, Any]
 
 
 def draw(count: int, seed: int, grids: Sequence[int] = GRIDS) -> list[Contact]:
-    """Draw contacts: the first ones are the same whatever the count."""
+    """Draw contacts; the first ones do not depend on `count`."""
     return [_one(k, np.random.default_rng((seed, k)), grids) for k in range(count)]
 
 
@@ -78,7 +78,7 @@ def _scale(rng: np.random.Generator, low: float, high: float) -> float:
 
 
 def _one(number: int, rng: np.random.Generator, grids: Sequence[int]) -> Contact:
-    """Draw until the grid resolves the inlet, and the boundary film is one that a case may have."""
+    """Draw until the case is valid, the grid resolves the inlet, and M is within its range."""
     points = int(grids[number % len(grids)])
     while True:
         law = str(rng.choice(("eyring", "eyring", "carreau", "limiting")))
@@ -132,13 +132,13 @@ def _one(number: int, rng: np.random.Generator, grids: Sequence[int]) -> Contact
 
 
 def _known(values: Iterable[Any]) -> list[float]:
-    """Give numbers, none where one of them is missing."""
+    """Return the numbers, or an empty list if one of them is missing."""
     result = list(values)
     return [] if None in result else result
 
 
 def contradictions(result: Mapping[str, Any]) -> list[str]:
-    """Describe which numbers of a summary contradict each other."""
+    """Return descriptions of the contradictions between the numbers of a summary."""
     wrong = []
 
     def product(mu: str, smooth: str) -> None:
@@ -170,7 +170,7 @@ def contradictions(result: Mapping[str, Any]) -> list[str]:
 
 
 def work(args: argparse.Namespace) -> dict[str, object]:
-    """Compare and print; the parts of the answer."""
+    """Compare and print; returns the contents of the JSON file."""
     rows = []
     for contact in draw(args.contacts, args.seed, args.points):
         say(f"contact {contact.number + 1} of {args.contacts}")
@@ -180,7 +180,7 @@ def work(args: argparse.Namespace) -> dict[str, object]:
 
 
 def compare(contact: Contact, *, simulate: bool) -> list[Row]:
-    """Rows of a contact: smooth, as the roughness vanishes, and rough."""
+    """Return the rows of a contact: smooth, with vanishing roughness, and rough."""
     head: Row = {"contact": contact.number, "over": contact.over, "points": contact.points}
     head["values"] = {**contact.keys, **contact.surface}
     rough = predicted({**contact.keys, **contact.surface})
@@ -199,7 +199,7 @@ def compare(contact: Contact, *, simulate: bool) -> list[Row]:
 
 
 def predicted(keys: Mapping[str, Any]) -> dict[str, Any]:
-    """Summary of a prediction."""
+    """Return the summary of a prediction."""
     try:
         return pyehl.predict(pyehl.Case.from_text("", keys), tracks=1).summary
     except EhlError as error:
@@ -207,7 +207,7 @@ def predicted(keys: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def solved(keys: Mapping[str, Any]) -> dict[str, Any]:
-    """Summary of a solution."""
+    """Return the summary of a solution."""
     with Solver(pyehl.Case.from_text("", keys)) as solver:
         solver.run()
         return dict(solver.summary)
@@ -231,7 +231,7 @@ def _both(one: Mapping[str, Any], other: Mapping[str, Any]) -> Row:
 
 
 def of_smooth(result: Mapping[str, Any], smooth: Mapping[str, Any]) -> Row:
-    """Films and pressure of the smooth contact under a prediction: those of the solution."""
+    """Compare films and pressure of the smooth contact of a prediction with those of a solution."""
     row = _both(result, smooth)
     if result["status"] == "failed" or smooth["status"] != "converged":
         return row
@@ -247,13 +247,13 @@ def of_smooth(result: Mapping[str, Any], smooth: Mapping[str, Any]) -> Row:
 
 
 def _stated(result: Mapping[str, Any], smooth: Mapping[str, Any], name: str) -> float:
-    """Largest relative error that either states of a film; 0 for none."""
+    """Largest relative error of a film that either result states; 0 if neither does."""
     error = name.removesuffix("_m") + "_error_m"
     return max((one.get(error) or 0.0) / one[name] for one in (result, smooth))
 
 
 def _film(smooth: Mapping[str, Any], name: str) -> float:
-    """Give a film of a solution as a prediction has it: extrapolated where it can be."""
+    """Return a film of a solution as a prediction reports it: extrapolated if possible."""
     if name == "p_max_Pa":
         return float(smooth[name])
     of = {"h_c_m": "H_c", "h_min_m": "H_min"}[name]
@@ -262,7 +262,7 @@ def _film(smooth: Mapping[str, Any], name: str) -> float:
 
 
 def of_pair(result: Mapping[str, Any], other: Mapping[str, Any]) -> Row:
-    """Load share and friction of a prediction beside those of a solution."""
+    """Compare load share and friction of a prediction with those of a solution."""
     row = _both(result, other)
     if result["status"] == "failed" or other["status"] != "converged":
         return row

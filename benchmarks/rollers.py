@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random rollers: how many end with a solution, and how.
+"""Convergence and time of random rollers.
 
-Loads per length, sizes, speeds and oils as rolling bearings have them; crown, logarithmic profile
-and chamfer, and none; some are misaligned, up to the angle that lifts an end of a roller without a
+Loads per length, sizes, speeds and oils as in rolling bearings; with a crown, logarithmic profile,
+chamfer or no profile; some are misaligned, up to the angle that lifts an end of a roller without a
 profile.
 """
 
@@ -31,7 +31,7 @@ COLUMNS = columns("profile:s drawn:d converged:d median_seconds:.2f largest_seco
 
 
 def rollers(seed: int, count: int) -> Iterator[dict[str, Any]]:
-    """Draw keys of a case: the first rollers are the same whatever the count."""
+    """Draw keys of a case; the first rollers do not depend on `count`."""
     rng = np.random.default_rng(seed)
 
     def between(low: float, high: float) -> float:
@@ -58,15 +58,15 @@ def rollers(seed: int, count: int) -> Iterator[dict[str, Any]]:
             "chamfer": {"chamfer_length": length * rng.uniform(0.05, 0.2), "chamfer_drop": deep},
             "none": {},
         }[profile]
-        share = rng.uniform(-0.5, 1.0)
-        keys["misalignment"] = max(0.0, share) * approach / length
+        fraction = rng.uniform(-0.5, 1.0)
+        keys["misalignment"] = max(0.0, fraction) * approach / length
         yield {f"contact.{name}": value for name, value in keys.items()} | {
             "lubricant.viscosity": between(0.008, 0.2)
         }
 
 
 def campaign(count: int, seed: int, points: int) -> list[Row]:
-    """Solve so many rollers of a seed on one thread; a row for each."""
+    """Solve `count` rollers of a seed on one thread; returns a row for each."""
     rows: list[Row] = []
     for number, keys in enumerate(rollers(seed, count)):
         try:
@@ -81,7 +81,7 @@ def campaign(count: int, seed: int, points: int) -> list[Row]:
 
 
 def summary(rows: Sequence[Row]) -> list[Row]:
-    """Count and time by profile, and of all."""
+    """Summarise counts and times by profile, and of all."""
     groups = {
         name: [row for row in rows if row["values"]["contact.profile"] == name] for name in PROFILES
     } | {"all": list(rows)}

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a case does not need, the seconds saved, and that nothing changes.
+"""Processor time saved by work that the solver skips, and a check that results do not change.
 
-Each row is a problem solved as usual and once more with that work done, in turn, on one thread.
-Seconds are those of the processor.
+Each row is a problem solved by default and once more with the skipped work done, in turn, on one
+thread.
 """
 
 import argparse
@@ -31,7 +31,7 @@ MEANING = (
     f"{ROUNDING:.0e} where sums are taken in another order, else the tolerance of the solver or of "
     "the mean"
 )
-"""What the columns are."""
+"""Meaning of the columns."""
 
 FRACTAL = ("surface.kind=fractal",)
 WAVE = (
@@ -41,20 +41,20 @@ WAVE = (
     "surface.amplitude=9.734e-3",
     "surface.velocity_ratio=1.01",
 )
-# Steps of one cycle carry rounding on to the algebraic error; steps solved to this do not
-EXACTER = "solver.accuracy=0.02"
-# Relative algebraic error at which the first grid of the nested iteration is left
+# With one cycle per step rounding grows to the algebraic error; with this accuracy it does not
+TIGHT_ACCURACY = "solver.accuracy=0.02"
+# Relative algebraic error at which the nested iteration leaves its first grid
 START_TOLERANCE = 1e-3
-# The grid coarser than this has no solution at Table 1, so that the error is not known
+# At Table 1 the next coarser grid has no solution, so that there is no error estimate
 MIN_POINTS = 257
-# Periods after which a run of fixed length is over: until the start has died out, and one more
+# Periods of a run of fixed length: until the effect of the start has decayed, and one more
 FIXED_PERIODS = 3
-# Surfaces of a sweep
+# Number of surfaces of a sweep
 PREDICTIONS = 20
 
 
-def smooth_scene(points: int) -> list[Row]:
-    """Smooth contact of Table 1 in SI units."""
+def smooth_problem(points: int) -> list[Row]:
+    """Measure the smooth contact of Table 1 in SI units."""
     points = max(points, MIN_POINTS)
     problem, grid = "smooth contact, SI units", f"grid.points={points}"
 
@@ -62,7 +62,7 @@ def smooth_scene(points: int) -> list[Row]:
         return solve(grid) | {"mu_ratio": 1.0}
 
     def transient_run() -> Values:
-        # one period, as a rough surface would need
+        # one period, as for a rough surface
         return solve(
             grid, "surface.kind=harmonic", "surface.amplitude=0.0", "time.estimate_error=.false."
         )
@@ -103,9 +103,9 @@ def smooth_scene(points: int) -> list[Row]:
 
 
 def _deflection_row(problem: str, points: int) -> Row:
-    """Corrections of the deflection where P = 0, in so many deflections of a Hertz pressure."""
+    """Measure the corrections of the deflection where P = 0, for a Hertz pressure."""
     pressure, h, _, _ = hertz(points)
-    # as little as keeps a pressure from being zero
+    # the smallest pressure that does not count as zero
     everywhere = maximum(pressure, finfo(float).tiny / finfo(float).eps)
     count = 20
 
@@ -121,7 +121,7 @@ def _deflection_row(problem: str, points: int) -> Row:
 
 
 def _run_rows(problem: str, options: Sequence[str], *, symmetric: bool) -> list[Row]:
-    """Measure what a transient run leaves out."""
+    """Measure the work that a transient run skips."""
 
     def usual() -> Values:
         return solve(*options)
@@ -130,7 +130,7 @@ def _run_rows(problem: str, options: Sequence[str], *, symmetric: bool) -> list[
 
     def at_the_end() -> Values:
         """Run to the end of a fixed number of periods."""
-        # from where the front, half a contact radius long, comes near to where it fills the contact
+        # distance of the front, half a contact radius long, from entering to filling the contact
         filled = 1.05 + 1.25 + 0.25
         step = float(first["x_mesh"])
         steps = math.ceil(filled / 1.01 / step + FIXED_PERIODS * float(first["T_period"]) / step)
@@ -143,8 +143,8 @@ def _run_rows(problem: str, options: Sequence[str], *, symmetric: bool) -> list[
             row(
                 "half of the domain: symmetric in Y",
                 "mu_ratio",
-                lambda: solve(*options, EXACTER),
-                lambda: solve(*options, EXACTER, "solver.symmetry=full"),
+                lambda: solve(*options, TIGHT_ACCURACY),
+                lambda: solve(*options, TIGHT_ACCURACY, "solver.symmetry=full"),
                 ROUNDING,
             )
         )
@@ -184,24 +184,24 @@ def _run_rows(problem: str, options: Sequence[str], *, symmetric: bool) -> list[
 
 def _smooth_of(options: Sequence[str], *, symmetric: bool) -> dict[str, Any]:
     kept = [text for text in options if not text.startswith("surface.")]
-    # all cycles full and on the same domain, as before the rough run
+    # full cycles on the same domain, as before the rough run
     return solve(*kept, "solver.cycle=F", f"solver.symmetry={'auto' if symmetric else 'full'}")
 
 
-def wave_scene(points: int) -> list[Row]:
-    """Wave of Fig. 2 of Zhang et al. 2019: symmetric in Y."""
+def wave_problem(points: int) -> list[Row]:
+    """Measure the wave of Fig. 2 of Zhang et al. 2019, which is symmetric in Y."""
     options = [*WAVE, f"grid.points={max(points, MIN_POINTS)}"]
     return _run_rows("symmetric wave", options, symmetric=True)
 
 
-def fractal_scene(points: int) -> list[Row]:
-    """Fractal surface of Table 1."""
+def fractal_problem(points: int) -> list[Row]:
+    """Measure the fractal surface of Table 1."""
     options = [*FRACTAL, f"grid.points={max(points, MIN_POINTS)}"]
     return _run_rows("fractal surface", options, symmetric=False)
 
 
-def prediction_scene(points: int) -> list[Row]:
-    """Predictions of fractal surfaces, nothing simulated."""
+def prediction_problem(points: int) -> list[Row]:
+    """Measure predictions of fractal surfaces, without simulations."""
     seeds = range(1, PREDICTIONS + 1)
     cases = [Case.from_text("", [*FRACTAL, f"surface.seed={seed}"]).resolve() for seed in seeds]
 
@@ -227,18 +227,18 @@ def prediction_scene(points: int) -> list[Row]:
 
 
 PROBLEMS: dict[str, Callable[[int], list[Row]]] = {
-    "smooth": smooth_scene,
-    "wave": wave_scene,
-    "fractal": fractal_scene,
-    "predict": prediction_scene,
+    "smooth": smooth_problem,
+    "wave": wave_problem,
+    "fractal": fractal_problem,
+    "predict": prediction_problem,
 }
 """Problems by name; each takes the nodes per side."""
 
 
 def skip_rows(problems: Sequence[str], points: int) -> list[Row]:
-    """Seconds with and without what is skipped, and the difference in the result.
+    """Measure times with and without the skipped work, and the difference of the results.
 
-    Of problems by their names in `PROBLEMS`, on so many nodes per side.
+    `problems` are names in `PROBLEMS`, `points` nodes per side.
     """
     return [row for name in problems for row in PROBLEMS[name](points)]
 

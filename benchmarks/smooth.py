@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Time of smooth solves, the error of their film, their memory."""
+"""Time, film error and memory of smooth solutions."""
 
 import argparse
 import json
@@ -20,12 +20,12 @@ from pyehl.solver import Solver
 from pyehl.theory.ellipse import ellipse
 from pyehl.types import Row
 
-# The circle of the Moes numbers asked for; that of Table 1 with a law, which has nearly those of
-# the default; the ellipse kappa = 2 with the same equations as the circle
+# The circle with the given Moes numbers; Table 1 with a shear law, whose M and L are nearly the
+# defaults; an ellipse of kappa = 2 with the same equations as the circle
 CASES = ("circle", "law", "ellipse")
 ENGINES = ("mlmi", "fft")
 RADIUS_RATIO = 0.35177
-# A solve in a process of its own, so that its peak memory is its own
+# Each solution has its own process, so that its peak memory is known
 CHILD = (
     f"import json, sys; sys.path.insert(0, {str(Path(__file__).parent)!r}); import smooth; "
     "print(json.dumps(smooth.solve_once(sys.stdin.read())))"
@@ -41,16 +41,16 @@ MEANING = (
     "error: of H_c against the limit of the two finest grids; peak memory: the "
     "whole process with Python"
 )
-"""What the columns are."""
+"""Meaning of the columns."""
 
 
 def peak_megabytes() -> float:
-    """Largest memory that this process has had."""
+    """Peak memory of this process."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
 
 
 def solve_once(text: str) -> Row:
-    """Solve a case in this process; seconds, summary, peak memory of the whole process."""
+    """Solve a case in this process; returns time, summary and peak memory of the process."""
     case = Case.from_text(text)
     began = time.perf_counter()
     with Solver(case) as solver:
@@ -68,7 +68,7 @@ def _solve_apart(text: str) -> Row:
 
 
 def case_text(name: str, moes_m: float, moes_l: float) -> str:
-    """Text of a case of `CASES`."""
+    """Return the text of a case of `CASES`."""
     if name == "law":
         return "&lubricant shear_law = 'eyring' /\n"
     text = f"&contact moes_m = {moes_m} moes_l = {moes_l}"
@@ -89,11 +89,11 @@ def smooth_rows(
     cases: Sequence[str] = CASES[:1],
     repeats: int = 3,
 ) -> list[Row]:
-    """Time of the smooth solve per grid, its error of H_c, and peak memory.
+    """Measure time, error of H_c and peak memory of smooth solutions on each grid.
 
     The error is relative to the value extrapolated from the two finest grids of this run, hence
-    independent of the estimate that the solver gives of it. The cases are solved in turn, so that
-    what else the machine does slows all of them alike.
+    independent of the estimate of the solver. The cases are solved in turn, so that other load
+    slows all of them alike.
     """
     rows: list[Row] = []
     for points in grids:
@@ -142,7 +142,7 @@ def _over(value: float | None, scale: float | None) -> float | None:
 
 
 def _add_true_errors(rows: list[Row]) -> None:
-    """Errors of H_c against the limit of the two finest grids, of second order."""
+    """Add errors of H_c against the second-order extrapolation of the two finest grids."""
     for which in {(row["case"], row["engine"]) for row in rows}:
         chosen = [row for row in rows if (row["case"], row["engine"]) == which]
         films = {row["points"]: row["H_c"] for row in chosen if row["H_c"] is not None}
@@ -158,7 +158,7 @@ def _add_true_errors(rows: list[Row]) -> None:
 
 
 def exponents(rows: Sequence[Row]) -> dict[str, float]:
-    """Slope of log time over log nodes from 129^2 on, per case, engine and number of threads."""
+    """Slope of log time over log nodes from 129^2 nodes on, by case, engine and threads."""
     slopes = {}
     names = "case", "engine", "threads"
     for which in sorted({tuple(row[name] for name in names) for row in rows}):

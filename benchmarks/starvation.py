@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Starved point contacts: films over the oil layer, on meshes to a/128, and of random contacts.
+"""Films of starved point contacts: over the oil layer, on meshes to a/128, and of random contacts.
 
     python benchmarks/starvation.py table FILE.csv
     python benchmarks/starvation.py mesh FILE.csv
@@ -22,7 +22,7 @@ import pyehl
 from pyehl.theory.starvation import layer_reduction
 
 LAYERS = (0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.5)
-"""Of the table: h_oil/(rho h_flooded)."""
+"""Oil layers of the table, h_oil/(rho h_flooded)."""
 POINTS = ((50.0, 5.0), (100.0, 10.0), (300.0, 10.0), (1000.0, 10.0))
 COLUMNS = (
     "shape", "moes_m", "moes_l", "radius_ratio", "points", "r", "status", "H_c", "H_c_error",
@@ -31,7 +31,7 @@ COLUMNS = (
 
 
 def solve(contact: dict[str, Any], points: int, **inlet: float) -> dict[str, Any]:
-    """Give the numbers of a summary."""
+    """Solve; returns the scalars and attributes of the result."""
     case = pyehl.Case(contact=contact, inlet=inlet, grid={"points": points})
     result = pyehl.solve(case, check=False)
     return {k: v.item() for k, v in result.data_vars.items() if v.ndim == 0} | result.attrs
@@ -44,7 +44,7 @@ def row(
     flooded: dict[str, Any],
     density: float,
 ) -> dict[str, Any]:
-    """Solve with a layer of so much of the flooded film, and compare."""
+    """Solve with a layer of `ratio` times the flooded film, and compare."""
     # the same layer on every grid
     film = float(pyehl.film(pyehl.Case(contact=contact)).formulas[0]["H_c"])
     layer = ratio * density * film
@@ -59,13 +59,13 @@ def row(
 
 
 def density_of(contact: dict[str, Any]) -> float:
-    """Density at the Hertz pressure by Dowson & Higginson."""
+    """Density ratio at the Hertz pressure by Dowson & Higginson."""
     pressure = pyehl.film(pyehl.Case(contact=contact)).summary["hertz_pressure_Pa"]
     return (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
 
 
 def table(grids: tuple[int, ...] = (65, 129, 257)) -> Iterator[dict[str, Any]]:
-    """Films over the layer at four points on three grids."""
+    """Compute films over the layer at four operating points on three grids."""
     for moes_m, moes_l in POINTS:
         contact: dict[str, Any] = {"moes_m": moes_m, "moes_l": moes_l}
         density = density_of(contact)
@@ -76,7 +76,7 @@ def table(grids: tuple[int, ...] = (65, 129, 257)) -> Iterator[dict[str, Any]]:
 
 
 def mesh() -> Iterator[dict[str, Any]]:
-    """Films with four layers at M = 100, L = 10 on meshes of a/32, a/64 and a/128."""
+    """Compute films with four layers at M = 100, L = 10 on meshes of a/32, a/64 and a/128."""
     contact: dict[str, Any] = {"moes_m": 100.0, "moes_l": 10.0}
     density = density_of(contact)
     for nodes in (32, 64, 128):
@@ -88,7 +88,7 @@ def mesh() -> Iterator[dict[str, Any]]:
 
 
 def random(count: int, seed: int) -> Iterator[dict[str, Any]]:
-    """Random circles and ellipses on two grids."""
+    """Compute films of random circles and ellipses on two grids."""
     draw = np.random.default_rng(seed)
     for _ in range(count):
         contact: dict[str, Any] = {

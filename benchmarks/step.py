@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Time of a step of a transient run, and the error of its friction ratio.
 
-Every run is made once with the largest number of threads until the roughness has passed most of
-the contact; its state is then resumed with each number of threads, for the same few steps, one
-step of each in turn. The unit of time is one scipy.fft deflection on the same grid, made after each
-of these turns.
+Every case runs once with the largest number of threads until the roughness fills most of the
+contact; its checkpoint is then resumed with each number of threads for the same few steps, one step
+of each in turn. The unit of time is one scipy.fft deflection on the same grid, measured after each
+turn.
 """
 
 import argparse
@@ -35,9 +35,9 @@ from pyehl.errors import EhlError
 from pyehl.solver import Solver
 from pyehl.types import Row
 
-# X of the front when the contact is full
+# X of the front when the roughness fills the contact
 FILLED = 1.05
-# Steps measured; their cycles vary over a period of the wave, which has points/8 steps
+# Number of steps measured; their cycles vary over a period of the wave, which has points/8 steps
 STEPS = 64
 # Relative change of the mean at which the runs for the error end
 TOLERANCE = 5e-4
@@ -45,9 +45,9 @@ TOLERANCE = 5e-4
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """A run to be measured: what it is called, its case, whole or half domain.
+    """A run to be measured: its name, whole or half domain, and its case.
 
-    A problem that is measured beside another one, a step of each in turn, has the name of that.
+    `beside` names a problem that is measured together with it, a step of each in turn.
     """
 
     name: str
@@ -61,17 +61,17 @@ FRACTAL = "&surface kind = 'fractal' /\n"
 SECOND = "&second_surface kind = 'fractal' seed = 2 /\n"
 LAW = "&lubricant shear_law = 'eyring' /\n"
 CIRCLE = "&contact moes_m = 1000.0 moes_l = 10.0 /\n"
-# kappa = 2, with the same equations as the circle
+# An ellipse of kappa = 2 with the same equations as the circle
 ELLIPSE = "&contact moes_m = 2357.0 moes_l = 10.3 radius_ratio = 0.35177 /\n"
-# A strip of 2 b; beside the circle with the same wave
+# A strip of width 2 b, measured beside the circle with the same wave
 LINE = "&contact shape = 'line' moes_m_line = 100.0 moes_l_line = 10.0 /\n"
 LONG_WAVE = (
     "&surface kind = 'harmonic' amplitude = 9.734e-3 wavelength_x = 0.5 wavelength_y = 2.0\n"
     "velocity_ratio = 1.01 /\n"
 )
 WHOLE = "&solver symmetry = 'full' /\n"
-# The wave is that of Fig. 2 of Zhang et al. 2019, the fractal surface that of Table 1. The contact
-# with a law is that of Table 1, of nearly the same Moes numbers.
+# Wave of Fig. 2 of Zhang et al. 2019, fractal surface of Table 1. The contact with a shear law is
+# that of Table 1, which has nearly the same Moes numbers.
 CASES = (
     Problem("wave", "whole", CIRCLE + WAVE + WHOLE),
     Problem("wave", "half", CIRCLE + WAVE),
@@ -99,7 +99,7 @@ RUN_COLUMNS = columns(
 
 
 def meaning(scheme: str, front: float, steps: int) -> str:
-    """Describe the columns, for the arguments of :func:`step_rows`."""
+    """Describe the columns for the arguments of :func:`step_rows`."""
     return (
         f"scheme '{scheme}'; seconds, cycles: of a step, mean of {steps} after the front of the "
         f"roughness has come to X = {front:g};\nunits: of one scipy.fft deflection at that grid; "
@@ -142,10 +142,10 @@ def step_rows(
     front: float = FILLED,
     steps: int = STEPS,
 ) -> list[Row]:
-    """Seconds and cycles of a step (means), per grid, case and number of threads.
+    """Measure mean time and cycles of a step by grid, case and number of threads.
 
-    The speed-up is the median over the steps of the ratio to the first number of threads. Measured
-    are the steps that follow those in which the front of the roughness comes to X = `front`.
+    The speed-up is the median over the steps of the ratio to the first number of threads. The
+    measured steps begin when the front of the roughness has reached X = `front`.
     """
     rows: list[Row] = []
     for points in grids:
@@ -181,7 +181,7 @@ def _rows_of(
             solvers += _filled(case, threads, front, stack)
         before = [solver.summary for solver in solvers]
         times: list[list[float]] = [[] for _ in solvers]
-        # in turn, so that what else the machine does slows all of them alike
+        # in turn, so that other load slows all of them alike
         for _ in range(steps):
             for solver, taken in zip(solvers, times, strict=True):
                 began = time.perf_counter()
@@ -223,7 +223,7 @@ def _rows_of(
 def _filled(
     case: Case, threads: Sequence[int], front: float, stack: contextlib.ExitStack
 ) -> list[Solver]:
-    """Make a solver for each number of threads, all from the state with the front at X = front."""
+    """Make a solver for each number of threads, all resumed with the front at X = front."""
     solvers = []
     with tempfile.TemporaryDirectory() as folder:
         place = f"{folder}/state"
@@ -247,9 +247,9 @@ def error_rows(
     scheme: str = "narrow",
     problems: Sequence[Problem] = CASES,
 ) -> list[Row]:
-    """Mean of mu_r/mu_s by whole runs, and its relative change to that on the finest grid.
+    """Mean of mu_r/mu_s from complete runs, and its relative difference from the finest grid.
 
-    The half domain serves for the whole one where the problem is symmetric.
+    A symmetric problem runs on the half domain only.
     """
     rows: list[Row] = []
     chosen = {problem.name: problem for problem in problems}

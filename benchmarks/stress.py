@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the solver converges and where not, and that it is never wrong.
+"""Stress test: where the solver converges, and whether converged results are right.
 
-Cases drawn from a seed run through the machinery of ``pyehl sweep``. All that end with a result are
-solved once more to a twentieth of the algebraic error. Cases with a boundary film are checked by
-their fields and on a finer grid as well.
+Cases drawn from a seed run as a study of ``pyehl sweep``. All that end with a result are solved
+again to a twentieth of the algebraic error. For cases with a boundary film the fields are checked,
+too, and the load share on a finer grid.
 """
 
 import argparse
@@ -44,7 +44,7 @@ MEANING = (
     "ended: all steps asked for converged; checked: solved once more to a twentieth of the "
     "algebraic error;\nwrong: differs by more than the error it states; cycles: of a step, or all"
 )
-"""What the columns are."""
+"""Meaning of the columns."""
 
 
 def campaign(
@@ -57,13 +57,13 @@ def campaign(
     law: str = "newtonian",
     layer: bool = False,
 ) -> list[Row]:
-    """Run so many cases of a seed and check what they say; a row for each.
+    """Run and check `cases` cases of a seed; returns a row for each.
 
-    `law` is their shear law; with `layer` each has a boundary film. A row is the case, what its
-    run said, `outcome`, `difference` and `allowed`; with a layer what conditions its fields break
-    (`broken`) and load shares of other runs, too. The folder gets the journals of the runs, so that
-    a campaign that was stopped is resumed. Each grid has half as many cases as the one before.
-    KeyboardInterrupt if it is stopped.
+    `law` is their shear law; with `layer` each has a boundary film. A row has the case, its
+    summary, `outcome`, `difference` and `allowed`; with a layer also the conditions that its fields
+    violate (`broken`) and the load shares of the other runs. The folder has the journals of the
+    runs, so that an interrupted campaign is resumed. Each grid has half as many cases as the one
+    before. KeyboardInterrupt if it is interrupted.
     """
     rows: list[Row] = []
     drawn = draw(cases, seed, grids, law, layer=layer)
@@ -91,7 +91,7 @@ def campaign(
 
 
 def folders() -> list[str]:
-    """Names of the folders of the runs."""
+    """Return the names of the folders of the runs."""
     ends = ("", "-strict", "-strict-high", "-finer", "-finer-high")
     return [f"{family}{end}" for family in FAMILIES for end in ends]
 
@@ -115,7 +115,7 @@ def _run(
 
 
 def _solved(todo: Plan, folder: Path, jobs: int) -> list[Row]:
-    """Rows of all cases; KeyboardInterrupt if the study was stopped, its folder has the rest."""
+    """Return the rows of all cases; KeyboardInterrupt if the study was interrupted."""
     outcome = perform(todo, folder, jobs=jobs)
     if outcome.interrupted:
         raise KeyboardInterrupt
@@ -130,20 +130,20 @@ def _outcome(row: Mapping[str, Any]) -> str:
 
 
 def _is_high(row: Mapping[str, Any]) -> bool:
-    """Whether a surface is higher than surface.amplitude may be: it stays a share of the film."""
+    """Whether an amplitude exceeds the range of surface.amplitude and must be given over H_c."""
     return row["amplitude"] is not None and row["amplitude"] > HIGHEST
 
 
 def _check(
     family: str, rows: Sequence[Row], folder: Path, jobs: int, *, finer: bool = False
 ) -> None:
-    """Solve again what has a result, to a stricter end or on a finer grid."""
+    """Solve cases with a result again, to a stricter tolerance or on a finer grid."""
     cases = [StressCase(family, r["moes_m"], r["moes_l"], r["points"], r["values"]) for r in rows]
     strict: list[dict[str, Any]] = []
     for row in rows:
         more: dict[str, Any] = dict(STRICT)
         if row["amplitude"] is not None and not _is_high(row):
-            # a share of the film would be another height
+            # relative to the film the amplitude would change
             more |= {"surface.amplitude_over_film": None, "surface.amplitude": row["amplitude"]}
         if finer:
             more |= {"grid.points": 2 * row["values"]["grid.points"] - 1, "time.steps": 0}
@@ -186,7 +186,7 @@ def summary(rows: Sequence[Row]) -> list[Row]:
 
 
 def work(args: argparse.Namespace) -> int:
-    """Run the campaign, print and draw; exit status."""
+    """Run the campaign, print and draw; returns the exit status."""
     if args.boundary_film and args.shear_law == "newtonian":
         raise InputError("--boundary-film needs a --shear-law that thins")
     names = ("stress.json", "stress.png", *folders())

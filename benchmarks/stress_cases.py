@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The cases of `stress.py`: drawn from a seed, over all that can be asked for."""
+"""Cases of `stress.py`, drawn from a seed over the whole range of the keys."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -13,17 +13,17 @@ from pyehl.studies.study import Axis, Study, Value, make
 from pyehl.theory.operating import OperatingPoint
 
 ROELANDS_Z = 0.6684
-"""Of waves, in place of the default 0.66841: that of the second solver, which checks some."""
+"""Roelands z of waves, that of the second solver, which checks some; the default is 0.66841."""
 GRIDS = (65, 129, 257)
-BOUNDS = {65: 400, 129: 300, 257: 200}
-"""Most steps of a case by its grid; one that needs more is ended there."""
+MAX_STEPS = {65: 400, 129: 300, 257: 200}
+"""Maximum number of steps of a case by its grid, at which it is ended."""
 FAMILIES = {"smooth": 0.15, "wave": 0.5, "rest": 0.1, "fractal": 0.12, "feature": 0.13}
-"""Kinds of problems, and the share of each."""
+"""Kinds of problems, and the fraction of each."""
 LAWS = ("newtonian", "eyring", "carreau")
-"""Shear laws that the cases of a campaign may have, with a stress and an exponent for each case."""
-# Where the roughness begins to matter, and where it fills the contact [a]
-MATTERS, FILLED = -1.25, 1.05
-# Lengths of waves along X and along Y [a]; the last is none at all
+"""Shear laws of a campaign; each case has its own stress and exponent."""
+# X of the front where the roughness begins to have an effect, and where it fills the contact [a]
+EFFECTIVE, FILLED = -1.25, 1.05
+# Longest wavelengths along X and Y [a]; the latter is a wave without variation along Y
 LONGEST_X, LONGEST_Y = 100.0, 1e6
 WAVELENGTHS = tuple(0.125 * 2.0 ** (k / 2.0) for k in range(11))
 VELOCITIES = (0.1, 0.25, 0.5, 0.75, 0.9, 1.0, 1.01, 1.1, 1.25, 1.5, 2.0)
@@ -31,14 +31,14 @@ VELOCITIES = (0.1, 0.25, 0.5, 0.75, 0.9, 1.0, 1.01, 1.1, 1.25, 1.5, 2.0)
 
 @dataclass(frozen=True, slots=True)
 class StressCase:
-    """One case."""
+    """One case of a campaign."""
 
     family: str  # one of `FAMILIES`
     # Operating point and grid
     moes_m: float
     moes_l: float
     points: int
-    # All keys of its case file that are given
+    # Keys of its case file
     values: Mapping[str, Value] = field(default_factory=dict)
 
     @property
@@ -57,9 +57,9 @@ def draw(
     *,
     layer: bool = False,
 ) -> list[StressCase]:
-    """Draw cases; the same for the same seed. Half of them on the first grid, and so on.
+    """Draw the cases of a seed; each grid has half as many as the one before.
 
-    `layer`: those with a law have a boundary film, too.
+    `layer`: those with a shear law have a boundary film, too.
     """
     generator = np.random.default_rng(seed)
     names = list(FAMILIES)
@@ -70,7 +70,7 @@ def draw(
     ]
     if law == "newtonian":
         return drawn
-    # the problems are those without a law
+    # all else is as without a law
     generator = np.random.default_rng((seed, LAWS.index(law)))
     drawn = [_with_law(case, law, generator) for case in drawn]
     if not layer:
@@ -80,7 +80,7 @@ def draw(
 
 
 def _with_layer(case: StressCase, generator: np.random.Generator) -> StressCase:
-    """Give a case in SI units a boundary film of 0.2 to 1.5 of its central film."""
+    """Add a boundary film of 0.2 to 1.5 times the central film to a case in SI units."""
     film = generator.uniform(0.2, 1.5) * _film(case) * _point(case).film_scale
     values = dict(case.values)
     values["lubricant.boundary_film"] = float(f"{film:.3g}")
@@ -91,7 +91,7 @@ def _with_layer(case: StressCase, generator: np.random.Generator) -> StressCase:
 
 
 def _with_law(case: StressCase, law: str, generator: np.random.Generator) -> StressCase:
-    """Give a case a stress, which needs a contact in SI units."""
+    """Add a shear law with its stress to a case, whose contact is converted to SI units."""
     case = replace(case, moes_l=max(case.moes_l, 1.0))
     values = {key: value for key, value in case.values.items() if not key.startswith("contact.")}
     values |= _si(case) | {"lubricant.shear_law": law}
@@ -129,7 +129,7 @@ def _one(family: str, generator: np.random.Generator, grids: Sequence[int]) -> S
 
 def _wave(case: StressCase, generator: np.random.Generator, *, at_rest: bool) -> dict[str, Value]:
     velocity = 0.0 if at_rest else float(generator.choice(VELOCITIES))
-    # the grid resolves waves of more than two nodes, in time too
+    # the grid resolves waves of more than two nodes, in space and in time
     minimum = 2.2 * case.mesh
     along = [w for w in WAVELENGTHS if w > minimum * max(1.0, velocity)]
     across = [w for w in WAVELENGTHS if w > minimum]
@@ -174,25 +174,25 @@ def _feature(case: StressCase, generator: np.random.Generator) -> dict[str, Valu
         "surface.y_start": float(f"{generator.uniform(-0.5, 0.5):.3g}"),
         "surface.velocity_ratio": velocity,
         "time.scheme": str(generator.choice(("narrow", "narrow", "paper"))),
-        "time.steps": BOUNDS[case.points],
+        "time.steps": MAX_STEPS[case.points],
     }
 
 
 def _steps(case: StressCase, period: float, front: float, velocity: float) -> int:
-    """Give the steps to end at; 0 where the run may end by itself."""
-    start = max(-2.5, MATTERS - 0.5 * front)
+    """Return the number of steps to end at; 0 if the run may end by itself."""
+    start = max(-2.5, EFFECTIVE - 0.5 * front)
     needed = (FILLED - start + 1.5 * period) / (velocity * case.mesh)
-    return 0 if needed <= BOUNDS[case.points] else BOUNDS[case.points]
+    return 0 if needed <= MAX_STEPS[case.points] else MAX_STEPS[case.points]
 
 
 def _film(case: StressCase) -> float:
-    """Rough central film [a^2/R] by 1.7 M^-1/9 L^3/4 (3M/2)^-2/3, for the size of roughness."""
+    """Approximate central film [a^2/R], 1.3 M^-1/12 L^3/4 (3M/2)^-2/3, to scale the roughness."""
     piezo = 1.3 * case.moes_m ** (-1.0 / 12.0) * max(case.moes_l, 2.0) ** 0.75
     return float(piezo * (1.5 * case.moes_m) ** (-2.0 / 3.0))
 
 
 def _point(case: StressCase) -> OperatingPoint:
-    """Give a contact in SI units that has the wanted M and L."""
+    """Return a contact in SI units with the M and L of a case."""
     return OperatingPoint.from_moes(case.moes_m, case.moes_l)
 
 
@@ -209,9 +209,9 @@ def study_of(
     *,
     fields: bool = False,
 ) -> Study:
-    """Give the study of cases of one family, at least one, for the machinery of ``pyehl sweep``.
+    """Return the study of cases of one family, at least one, as for ``pyehl sweep``.
 
-    `values` are keys of each case in place of its own; None takes a key away.
+    `values` are keys that replace those of each case; None removes a key.
     """
     kinds = {"wave": "harmonic", "rest": "harmonic"}
     more = values or [{}] * len(cases)

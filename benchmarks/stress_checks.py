@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks of `stress.py`: results against those of stricter runs, fields against conditions."""
+"""Checks of `stress.py`: results against stricter runs, fields against the contact conditions."""
 
 import math
 from collections.abc import Mapping
@@ -14,24 +14,23 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Row
 
 ENDED = "ended at its number of steps"
-"""Status of a run that was to end after so many steps, all of which converged."""
+"""Status of a run with a fixed number of steps, all of which converged."""
 UNKNOWN_ERROR = 0.03
-"""Difference allowed where a result comes without an estimate of its error."""
-# What a result is, by the kind of problem, and the estimate of its error
+"""Allowed difference for a result without an error estimate."""
+# Result that is compared, by the kind of problem, and its error estimate
 RESULTS = {"smooth": ("H_c", "H_c_error_grid")}
-HELD = 0.01
-"""Share of the layer by which the film of a touching node may differ from it."""
-LOAD = 1e-4
-"""Error of the load and of the load share as summed here; these are sums over the same nodes."""
+FILM_TOLERANCE = 0.01
+"""Relative difference allowed between the film of a node in contact and the boundary film."""
+LOAD_TOLERANCE = 1e-4
+"""Difference allowed of load and load share, which are sums over the same nodes here and there."""
 MIN_ERROR = 1e-3
-"""Share of the load that any load share may be off by."""
+"""Difference allowed of any load share."""
 
 
 def judge(row: Row, strict: Mapping[str, Any]) -> None:
     """Compare a result with that of the stricter run; wrong if they differ by more than its error.
 
-    Where the mean has no estimate of its error, or there is no mean yet, the allowed difference is
-    `UNKNOWN_ERROR`.
+    Without a mean, or without its error estimate, the allowed difference is `UNKNOWN_ERROR`.
     """
     name, error = RESULTS.get(row["family"], ("mu_ratio", "mu_ratio_error"))
     value, other = row[name], strict.get(name)
@@ -43,7 +42,7 @@ def judge(row: Row, strict: Mapping[str, Any]) -> None:
     estimate = row[error]
     row["allowed"] = UNKNOWN_ERROR if not estimate else max(estimate / abs(value), 1e-3)
     if other is None and name == "mu_ratio":
-        # the same steps, solved more strictly: the mean may just not have settled
+        # with the same steps, solved more strictly, the mean may just not have settled
         other = strict.get("last_mu_ratio_mean")
     if other is None:
         return
@@ -54,7 +53,7 @@ def judge(row: Row, strict: Mapping[str, Any]) -> None:
 def judge_share(row: dict[str, Any], name: str, reported: Mapping[str, Any]) -> None:
     """Set `name` of a row to the load share of another run, and `wrong` if its error is exceeded.
 
-    Where no error is stated, `UNKNOWN_ERROR` is allowed.
+    Without a stated error the allowed difference is `UNKNOWN_ERROR`.
     """
     value, other = row["contact_load_share"], reported.get("contact_load_share")
     row[name] = other
@@ -66,9 +65,9 @@ def judge_share(row: dict[str, Any], name: str, reported: Mapping[str, Any]) -> 
 
 
 def broken(folder: Path) -> str:
-    """Say what conditions of contact the last fields of a result folder break; '' if none.
+    """List the contact conditions that the last fields of a result folder violate; '' if none.
 
-    Film and pressure are those of the folder, the density is that of the Python side.
+    Film and pressure are read from the folder; the density is computed in Python.
     """
     data = load(folder)
     settings = settings_of(data)
@@ -77,7 +76,7 @@ def broken(folder: Path) -> str:
     oil = Lubricant.from_settings(settings)
     layer = settings["lubricant"]["boundary_film"] / point.film_scale
     mass = oil.density_ratio(pressure * point.hertz_pressure) * film / layer
-    touching = (pressure > 0.0) & (mass <= 1.0 + HELD)
+    touching = (pressure > 0.0) & (mass <= 1.0 + FILM_TOLERANCE)
     cell = float(data["X"][1] - data["X"][0]) * float(data["Y"][1] - data["Y"][0])
     last = "history_" if "history_load_share" in data else "contact_"
     share = pressure[touching].sum() / pressure.sum()
@@ -86,9 +85,9 @@ def broken(folder: Path) -> str:
     carried = pressure.sum() * cell / (2.0 * np.pi / 3.0) + float(data["load_beyond"])
     conditions = {
         "P >= 0": pressure.min() >= 0.0,
-        "film of the layer": mass.min() >= 1.0 - HELD,
-        "load": abs(carried - 1.0) <= LOAD,
-        "load share": abs(share - reported) <= LOAD,
-        "N <= 0": given >= -HELD,
+        "film of the layer": mass.min() >= 1.0 - FILM_TOLERANCE,
+        "load": abs(carried - 1.0) <= LOAD_TOLERANCE,
+        "load share": abs(share - reported) <= LOAD_TOLERANCE,
+        "N <= 0": given >= -FILM_TOLERANCE,
     }
     return ", ".join(name for name, holds in conditions.items() if not holds)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Cases per core-hour of studies, overhead of a case, estimate of time.
+"""Throughput of studies, overhead per case, and the time estimate.
 
-Each problem runs as a study, in one worker process and in several. The start of the workers (they
-import the package) is taken off: it ends with the first row.
+Each problem runs as a study, in one worker process and in several. The start of the workers, which
+import the package, is subtracted: it ends with the first row.
 """
 
 import argparse
@@ -28,21 +28,21 @@ COLUMNS = columns(
 )
 MEANING = (
     "wall seconds: from the start of the workers to the last row; estimate: of the plan; busy: "
-    "share of the workers' time that cases took;\noverhead: of a case, in the plan and in one "
+    "fraction of the workers' time in cases;\noverhead: of a case, in the plan and in one "
     "worker; efficiency: throughput over that of the first number of processes"
 )
-"""What the columns are."""
+"""Meaning of the columns."""
 
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """What a study is made of."""
+    """The cases of a study."""
 
-    # Its name, and what is done with each case
+    # Its name, and the kind of run of each case
     name: str
     run: str
     cases: int  # number of cases for each process
-    # Texts ``group.key=value``. The mean velocity is varied, or a key that stands alone
+    # Options ``group.key=value``. The mean velocity is varied, or the key without a value
     options: tuple[str, ...]
 
 
@@ -61,7 +61,7 @@ PROBLEMS = (
 
 
 class _FirstRow(Watcher):
-    """Knows when the workers had started."""
+    """Watcher that measures the start of the workers."""
 
     def __init__(self) -> None:
         self.began_at = self.started = 0.0
@@ -78,9 +78,9 @@ class _FirstRow(Watcher):
 def sweep_rows(problems: Sequence[Problem], processes: Sequence[int]) -> list[Row]:
     """Run problems with each number of worker processes.
 
-    `overhead_ms` is the overhead per case, in the plan (without what every plan costs)
-    and in one worker process; `busy` the share of the time of the workers that cases took;
-    `efficiency` the throughput over that of the first number of processes times their ratio.
+    `overhead_ms` is the overhead per case, in the plan (without its fixed cost) and in one worker
+    process; `busy` the fraction of the time of the workers spent in cases; `efficiency` the
+    throughput over that of the first number of processes times their ratio.
     """
     rows: list[Row] = []
     for problem in problems:
@@ -96,7 +96,7 @@ def sweep_rows(problems: Sequence[Problem], processes: Sequence[int]) -> list[Ro
 
 
 def _planned(problem: Problem, count: int) -> tuple[float, Plan]:
-    """Plan so many cases of a problem: seconds, and the plan."""
+    """Plan `count` cases of a problem; returns the time and the plan."""
     began = time.monotonic()
     varied = axis("contact.mean_velocity", f"0.7:1.0:{count}")
     if SEEDS in problem.options:
@@ -124,7 +124,7 @@ def _run(problem: Problem, count: int, jobs: int) -> Row:
         "estimate_seconds": sum(task.seconds for task in todo.tasks) / min(jobs, count),
         "cases_per_core_hour": 3600.0 * count / spent,
         "busy": outcome.busy / spent,
-        # with several processes the end, when one waits for the other, would be in it
+        # with several processes it would include the wait for the last case
         "overhead_ms": 1e3 * (planned - single + wall - outcome.busy) / count
         if jobs == 1
         else None,

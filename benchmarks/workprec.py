@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Error against seconds and against units, and the cheapest settings.
+"""Work-precision: error against processor time and work units, and the cheapest settings.
 
-Every setting is one run. Seconds are those of the processor; the unit, one scipy.fft deflection at
-the same grid, is measured before each run. The reference of the errors is extrapolated from the two
-finest grids by the narrow scheme; its error bar is its change by one more grid.
+Every setting is one run. The unit, one scipy.fft deflection on the same grid, is measured before
+each run. The reference of the errors is extrapolated from the two finest grids with the narrow
+scheme; its error bar is its change by the finest grid.
 """
 
 import argparse
@@ -33,7 +33,7 @@ WAVE = (
     "surface.velocity_ratio=1.01",
 )
 RATIO = ("mu_ratio",)
-# What is varied, one at a time from the default; behind the first two of rough contacts alone
+# Variations of the default, one at a time; those after the first two only for rough contacts
 SETTINGS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("default", ()),
     ("fft", ("solver.deflection=fft",)),
@@ -44,19 +44,19 @@ SETTINGS: tuple[tuple[str, tuple[str, ...]], ...] = (
 LEVELS = (0.03, 0.01, 0.003, 0.001)
 """Errors for which the cheapest setting is searched."""
 ORDER = 2
-"""Of the discretisation, for Richardson extrapolation."""
+"""Order of the discretisation, for Richardson extrapolation."""
 
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """What is solved."""
+    """A problem to be solved with all settings."""
 
     name: str
-    options: tuple[str, ...]  # its case, as texts ``group.key=value``
-    quantities: tuple[str, ...]  # what the error is of
-    # Nodes per side; the last one with ``--full`` alone, for the reference: default setting only
+    options: tuple[str, ...]  # its case, as options ``group.key=value``
+    quantities: tuple[str, ...]  # quantities whose error is measured
+    # Nodes per side; the last grid only with ``--full``, at default settings, for the reference
     grids: tuple[int, ...]
-    rough: bool = True  # whether schemes, coarsenings and the prediction belong to it
+    rough: bool = True  # whether schemes, coarsenings and the prediction apply
 
 
 PROBLEMS = (
@@ -81,9 +81,9 @@ def work_rows(
 ) -> list[Row]:
     """Run all settings of problems, by their names in `PROBLEMS`.
 
-    `grids`: nodes per side, where not those of the problem; `full`: with the finest of these, too.
-    Of the numbers of threads those after the first are for the default setting alone. Rows have
-    `COLUMNS` and `unit_seconds`; `error` is relative to the reference, `bar` the error of that,
+    `grids`: nodes per side instead of those of the problem; `full`: include the finest of these.
+    Only the default setting runs with the numbers of threads after the first. Rows have `COLUMNS`
+    and `unit_seconds`; `error` is relative to the reference, `bar` is the error of the reference,
     `estimate` the error that the run states.
     """
     rows: list[Row] = []
@@ -92,7 +92,7 @@ def work_rows(
         mine: list[Row] = []
         for points in used:
             unit = unit_seconds(points)
-            # the finest grid is there for the reference
+            # the finest grid serves only as the reference
             reference = problem.rough and full and points == problem.grids[-1]
             for setting, options in SETTINGS if problem.rough else SETTINGS[:2]:
                 if reference and options:
@@ -132,9 +132,9 @@ def _run(
 
 
 def _predicted(problem: Problem, unit: float) -> list[Row]:
-    """Give the prediction as one more setting."""
+    """Return the row of the prediction, as one more setting."""
     if problem.name == "wave":
-        # the prediction takes heights in metres: no such surface there
+        # the prediction needs heights in metres, which this case does not have
         return []
     case = Case.from_text("", problem.options)
     began = processor_seconds()
@@ -148,10 +148,10 @@ def _predicted(problem: Problem, unit: float) -> list[Row]:
 
 
 def share_of_deflection(points: int = 129) -> Row:
-    """Measure what multi-integration adds to the error of a short wave that slides.
+    """Measure the contribution of multi-integration to the error of a short sliding wave.
 
-    `difference`, relative, of mu_r/mu_s by multi-integration and by FFT; `grid_error` of it, by
-    the next finer grid; `share`, their ratio.
+    `difference` is the relative one of mu_r/mu_s between multi-integration and FFT, `grid_error`
+    its discretisation error from the next finer grid, `share` their ratio.
     """
     options = [
         *POINT,
@@ -180,14 +180,14 @@ def share_of_deflection(points: int = 129) -> Row:
 
 
 def extrapolated(rows: Sequence[Row]) -> list[Row]:
-    """Richardson: the value of a grid and of the next coarser one, at the cost of both."""
+    """Extrapolate from each grid and the next coarser one (Richardson), at the cost of both."""
     result = {(r["quantity"], r["setting"], r["threads"], r["points"]): r for r in rows}
     more = []
     for (quantity, setting, threads, points), fine in result.items():
         coarse = result.get((quantity, setting, threads, (points + 1) // 2))
         if coarse is None or fine["value"] is None or coarse["value"] is None:
             continue
-        # nested iteration has solved the coarser grid of a smooth contact anyway
+        # for a smooth contact nested iteration solves the coarser grid anyway
         extra = 0.0 if fine["problem"] == "smooth" else coarse["seconds"]
         seconds = fine["seconds"] + extra
         value = fine["value"] + (fine["value"] - coarse["value"]) / (2**ORDER - 1)
@@ -205,7 +205,7 @@ def extrapolated(rows: Sequence[Row]) -> list[Row]:
 
 
 def _reference(values: Mapping[int, float]) -> tuple[float, float]:
-    """Limit of the two finest grids, and its relative error."""
+    """Extrapolate the two finest grids; returns the limit and its relative error."""
     grids = sorted(values)[-3:]
     if len(grids) < 2:
         return math.nan, math.nan
@@ -234,9 +234,9 @@ def add_errors(rows: Sequence[Row], quantities: Sequence[str]) -> None:
 
 
 def cheapest(rows: Sequence[Row]) -> list[Row]:
-    """Give the setting of fewest seconds for each of `LEVELS`, by problem and quantity.
+    """Return the fastest setting for each of `LEVELS`, by problem and quantity.
 
-    An error below the bar of the reference counts as the bar.
+    An error below that of the reference counts as the latter.
     """
     result = []
     for problem, quantity in dict.fromkeys((row["problem"], row["quantity"]) for row in rows):
@@ -253,7 +253,7 @@ def cheapest(rows: Sequence[Row]) -> list[Row]:
 
 
 def best_of(row: Row) -> str:
-    """Give a row of `cheapest` in a line."""
+    """Format a row of `cheapest` in a line."""
     best, how = row["best"], "none of these"
     if best is not None:
         how = f"{best['setting']}, {best['points']} x {best['points']}, threads {best['threads']}: "

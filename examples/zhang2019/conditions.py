@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Cases of several figures: moving waves, and Table 1 surfaces with their predictions."""
+"""Cases shared by several figures: moving waves, and Table 1 surfaces with their predictions."""
 
 from dataclasses import dataclass
 
@@ -47,10 +47,10 @@ CURVES = (
     (2000.0, 15.0, 1.0),
     (500.0, 5.0, 0.5),
 )
-"""M, L, wavelength [a]: the corners and the middle of the ranges of eq. 16."""
+"""M, L, wavelength [a], at the corners and in the middle of the ranges of eq. 16."""
 RATIOS = (1.0, 1.6, 2.5, 5.0, 10.0)
 """H_c/A_i."""
-# The domain of the paper, whatever M
+# The domain of the paper, for all M
 DOMAIN = "&grid points = {points} x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
 SMOOTH = "&contact moes_m = 1000.0 moes_l = 10.0 /\n" + DOMAIN
 WAVE = (
@@ -70,7 +70,7 @@ def tile(seed: int = SEED) -> tuple[Topography, OperatingPoint]:
 
 
 def deformed_run(runs: Runs, level: Level) -> Made:
-    """Simulate the surface of `SEED` with its fields, which its result folder keeps."""
+    """Simulate the surface of `SEED`, with its fields in its result folder."""
     return runs.study(
         f"surface-{level.surface_grid}",
         CASE + TIME.format(scheme="narrow") + f"&grid points = {level.surface_grid} /\n",
@@ -80,7 +80,7 @@ def deformed_run(runs: Runs, level: Level) -> Made:
 
 
 def simulations(runs: Runs, level: Level) -> tuple[list[Row], list[Made]]:
-    """Simulate the surfaces of the seeds 1, 2, ...: rows in the order of the seeds, studies."""
+    """Simulate the surfaces of the seeds 1, 2, ...; returns rows in order of the seeds, studies."""
     made = deformed_run(runs, level)
     if level.surfaces < 2:
         return list(made.rows), [made]
@@ -95,14 +95,14 @@ def simulations(runs: Runs, level: Level) -> tuple[list[Row], list[Made]]:
 
 
 def resolved_waves(points: int) -> list[str]:
-    """Options that leave the waves that a grid resolves: longer than two nodes."""
+    """Options that keep only the waves that a grid resolves: longer than two mesh sizes."""
     _, point = tile()
     shortest = 2.0 * WIDTH / (points - 1) * point.hertz_radius
     return [f"surface.shortest_wavelength={shortest:.6g}"]
 
 
 def predictions(runs: Runs, level: Level, model: str) -> Made:
-    """Predict the same surfaces by one of `MODELS`, with the waves that the simulation has."""
+    """Predict the same surfaces by one of `MODELS`, with the waves that the simulation resolves."""
     return runs.study(
         f"predictions-{model}-{level.surfaces}-{level.surface_grid}",
         CASE + MODELS[model],
@@ -125,7 +125,7 @@ def smooth_films(runs: Runs, level: Level) -> dict[tuple[float, float], float]:
 
 @dataclass(frozen=True, slots=True)
 class WaveSet:
-    """Waves under one scheme; arrays (n,)."""
+    """Waves simulated with one scheme; arrays (n,)."""
 
     scheme: str  # as ``time.scheme``
     # M, L, wavelength [a], H_c/A_i
@@ -134,7 +134,7 @@ class WaveSet:
     wavelength: Array
     ratio: Array
     amplitude: Array  # A_i [a^2/R]
-    friction: Array  # mu_r/mu_s; NaN where there is none
+    friction: Array  # mu_r/mu_s; NaN without a result
     status: tuple[str, ...]  # of the runs
     made: Made
 
@@ -145,10 +145,10 @@ class WaveSet:
 
 
 def waves(runs: Runs, level: Level, scheme: str) -> WaveSet:
-    """Run the waves of `CURVES` and `RATIOS` under a scheme.
+    """Run the waves of `CURVES` and `RATIOS` with a scheme.
 
-    Amplitudes are absolute, shares of the film on the grid of the paper: as shares of the film of
-    a coarse grid they would be too small, and the rise goes with their square.
+    Amplitudes are relative to the film on the grid of the paper: relative to the film of a coarser
+    grid they would be too small, and the friction increase is proportional to their square.
     """
     films = smooth_films(runs, level)
     cases = [(m, ell, lam, ratio) for m, ell, lam in CURVES for ratio in RATIOS]

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fits of the form of eq. 16, mu_r/mu_s = 1 + a theta^-2 + b theta^-4, and the scatter about them.
 
-Relative deviations of mu_r/mu_s are fitted: the ratio spans two decades, and absolute ones would
-leave the fit to the two or three largest. Points of one curve (one M, L and wavelength) are not
-independent of one another, so that the confidence interval is that of a bootstrap over the curves.
+Relative deviations of mu_r/mu_s are minimised: the ratio spans two decades, so that the two or
+three largest values would dominate a fit of absolute ones. Points of one curve (one M, L and
+wavelength) are not independent; the confidence interval is from a bootstrap over the curves.
 """
 
 from dataclasses import dataclass
@@ -34,7 +34,7 @@ class Fit:
         return evaluate(theta, self.second, self.fourth)
 
     def __str__(self) -> str:
-        """Give the equation with its intervals."""
+        """Return the equation with its intervals."""
         (a, b), (c, d) = self.second_interval, self.fourth_interval
         return (
             f"1 + {self.second:.3g} theta^-2 + {self.fourth:.3g} theta^-4, "
@@ -54,10 +54,9 @@ def scatter(friction: Array, curve: Array) -> float:
 
 
 def fit(theta: Array, friction: Array, curve: Indices) -> Fit:
-    """Fit the form of eq. 16 to parameter and mu_r/mu_s of waves (n,), finite.
+    """Fit the form of eq. 16 to the parameter and mu_r/mu_s of waves (n,), all finite.
 
-    `curve` (n,) is the number of the curve that a wave belongs to; ValueError for fewer than
-    three.
+    `curve` (n,) is the number of the curve of each wave; ValueError for fewer than three curves.
     """
     members = [np.flatnonzero(curve == k) for k in np.unique(curve)]
     if len(members) < 3:
@@ -83,7 +82,7 @@ def fit(theta: Array, friction: Array, curve: Indices) -> Fit:
 
 
 def _solve(columns: Array, friction: Array) -> Array:
-    """Least squares of relative deviations; coefficients are not negative."""
+    """Minimise the squares of relative deviations, with coefficients that are not negative."""
     weight = 1.0 / friction
     solution, _ = nnls(columns * weight[:, np.newaxis], (friction - 1.0) * weight)
     return np.asarray(solution)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Redo pieces of the paper, and write the report.
+"""Reproduce figures and tables of the paper, and write the report.
 
-A piece is run before the numbers of the paper are read for it: nothing that computes sees them.
+A piece runs before the numbers of the paper are read, so that these cannot affect the computation.
 """
 
 import time
@@ -32,7 +32,7 @@ from pyehl.reports import page
 from pyehl.studies.plan import Plan
 from pyehl.studies.sweep import Watcher
 
-# In the order of the report; the order of the work is the same
+# In the order of the computation and of the report
 MODULES = (table1, figure1, figure2, figure3, figure4, figure5, figure6, table2, figure7)
 PIECES: dict[str, Piece] = {module.NAME: cast(Piece, module) for module in MODULES}
 """Figures and tables by name."""
@@ -54,14 +54,13 @@ def reproduce(
     done: Callable[[Result], None] | None = None,
     references: References | None = None,
 ) -> list[Result]:
-    """Redo pieces of the paper, by their names in `PIECES`, in the order there.
+    """Reproduce pieces of the paper, by their names in `PIECES`, in the order of `PIECES`.
 
-    The folder gets ``report.html``, a folder for each piece and ``studies``; what is there of the
-    same level is not computed again. `machine` are lines of the report, `watch` gives the watcher
-    of a study, `done` takes each piece, `references` are compared with in place of those of the
-    paper. InputError if there is no such piece, or the folder holds something else; FileError if
-    something cannot be written; KeyboardInterrupt if somebody stopped it: what was finished is
-    kept.
+    Writes ``report.html``, a folder for each piece and ``studies``; existing studies of the same
+    level are not run again. `machine` are lines of the report, `watch` returns the watcher of a
+    study, `done` is called with each result, `references` replace the numbers of the paper.
+    InputError if there is no such piece, or the folder has other files; FileError if something
+    cannot be written; KeyboardInterrupt if it is interrupted: finished studies are kept.
     """
     for name in names:
         if name not in PIECES:
@@ -124,7 +123,7 @@ def _head(results: Sequence[Result], level: Level) -> list[str]:
 
 
 def _kind(result: Result) -> str:
-    """Give the class of the verdict in the page."""
+    """Return the CSS class of the verdict."""
     return {"pass": "pass", "FAIL": "fail"}.get(result.verdict, "care")
 
 
@@ -153,9 +152,9 @@ def _piece(folder: Path, r: Result) -> list[page.Part]:
 def write_report(
     folder: Path, results: Sequence[Result], level: Level, machine: Sequence[str]
 ) -> Path:
-    """Write the page above the pictures and tables, whole or not at all; returns its path.
+    """Write the page with the pictures and tables, completely or not at all; returns its path.
 
-    `machine` names versions, machine and settings. FileError if it cannot be written.
+    `machine` names versions, processor and settings. FileError if it cannot be written.
     """
     parts: list[page.Part] = [page.paragraph(text) for text in (PAPER, *_head(results, level))]
     parts.append(page.preformatted("\n".join(machine)))

@@ -24,10 +24,10 @@ TITLE = "Flow of the prediction"
 
 @dataclass(frozen=True, slots=True)
 class Flow:
-    """The paper's model and ours on one surface, the steps of the paper's, and what is printed.
+    """Predictions of one surface by the paper's model and ours, and the steps of the former.
 
-    `without_phase` is the largest height over the rms height of the surface that eq. 10 as printed
-    starts from, with the modulus of the components alone.
+    `without_phase` is the largest height over the rms height of the surface that has only the
+    moduli of the components, as in eq. 10 as printed.
     """
 
     paper: Prediction
@@ -39,7 +39,7 @@ class Flow:
 
 
 def run(runs: Runs, level: Level) -> Flow:
-    """Predict the surface of the seed by both models, and put the steps together."""
+    """Predict the surface of the seed by both models, and compute the fields of the steps."""
     paper, ours = (
         predict(case.resolve(), case.text, brief=True)
         for case in (
@@ -75,7 +75,7 @@ def run(runs: Runs, level: Level) -> Flow:
 
 
 def show(data: Flow, references: References, level: Level) -> Result:
-    """Draw the steps as fields, with the numbers that they lead to."""
+    """Draw the fields of the steps, with the resulting friction."""
     tile, response = data.paper.surface, data.paper.friction.response
     steps = [
         Step("roughness $rr$", tile.heights * 1e9, "nm", signed=True),

@@ -38,7 +38,7 @@ class Wave:
 
 
 def run(runs: Runs, level: Level) -> list[Wave]:
-    """Run the wave on all grids under both schemes."""
+    """Run the wave on all grids with both schemes."""
     cases = [(points, scheme) for points in level.wave_grids for scheme in SCHEMES]
     made = runs.study(
         "figure2-" + "-".join(map(str, level.wave_grids)),
@@ -58,7 +58,7 @@ def run(runs: Runs, level: Level) -> list[Wave]:
 
 
 def _independent(wave: Wave) -> list[Check]:
-    """Compare with another program, where that has the same wave on the same grid.
+    """Compare with another program if it has computed the same wave on the same grid.
 
     Its Roelands exponent is 0.6684, ours 0.66841: a change of H_c by 1e-5.
     """
@@ -86,7 +86,7 @@ def _independent(wave: Wave) -> list[Check]:
 
 
 def show(data: list[Wave], references: References, level: Level) -> Result:
-    """Draw the finest grid, and compare its mean under the scheme of the paper."""
+    """Draw all runs, and compare the mean on the finest grid with the scheme of the paper."""
     paper_wave = next(w for w in reversed(data) if w.scheme == "paper")
     printed = references["fig2.mu_ratio"]
     checks = [

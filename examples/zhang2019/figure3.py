@@ -17,13 +17,13 @@ COLUMNS = (
 
 
 def run(runs: Runs, level: Level) -> list[WaveSet]:
-    """Run the waves under both schemes."""
+    """Run the waves with both schemes."""
     smooth_films(runs, level)
     return [waves(runs, level, scheme) for scheme in SCHEMES]
 
 
 def series(result: WaveSet, place: pictures.Array) -> list[pictures.Series]:
-    """Curves of a set over a parameter (n,)."""
+    """Return the curves of a set over a parameter (n,)."""
     curves = sorted(set(zip(result.moes_m, result.moes_l, result.wavelength, strict=True)))
     out = []
     for m, ell, lam in curves:
@@ -38,23 +38,23 @@ def series(result: WaveSet, place: pictures.Array) -> list[pictures.Series]:
 
 
 def without_result(result: WaveSet) -> str:
-    """Tell which waves have no result, and why."""
-    lost = [
+    """Return a note on the waves without a result, with the reasons."""
+    missing = [
         f"({result.moes_m[k]:g}, {result.moes_l[k]:g}, {result.wavelength[k]:g}, "
         f"{result.ratio[k]:g}) {result.status[k]}"
         for k in np.flatnonzero(~result.known)
     ]
-    if not lost:
+    if not missing:
         return f"Scheme '{result.scheme}': all {result.friction.size} waves have a result."
     return (
         f"Scheme '{result.scheme}': {np.count_nonzero(result.known)} of {result.friction.size} "
         "waves have a result; without one, as (M, L, wavelength, H_c/A_i) status: "
-        f"{'; '.join(lost)}."
+        f"{'; '.join(missing)}."
     )
 
 
 def show(data: list[WaveSet], references: References, level: Level) -> Result:
-    """Draw the curves; the paper's own are not published as numbers."""
+    """Draw the curves; those of the paper are not published as numbers."""
     grid = f"{level.collapse_grid} x {level.collapse_grid} nodes"
     figure = pictures.friction_over_film(
         [

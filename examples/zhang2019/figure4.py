@@ -21,7 +21,7 @@ TITLE = "Relative friction of moving waves over theta_2, eq. 16, and over a bett
 # The wave that shows the damping: M, L, wavelength, H_c/A_i
 DAMPED = (1000.0, 10.0, 0.25, 2.5)
 ONE_CURVE = 1.0
-"""Above this theta_2 the waves lie on one curve."""
+"""theta_2 above which the waves lie on one curve."""
 COLUMNS = (
     *("scheme", "moes_m", "moes_l", "wavelength", "film_over_amplitude", "theta_2", "theta_r"),
     *("mu_ratio", "mu_ratio_eq_16", "status"),
@@ -31,9 +31,9 @@ BELOW = "Below theta_2 = 1 the waves do not lie on one curve"
 
 @dataclass(frozen=True, slots=True)
 class Collapsed:
-    """Waves under one scheme, over both parameters (n,), with fits of the form of eq. 16.
+    """Waves of one scheme over both parameters (n,), with fits of the form of eq. 16.
 
-    `fit_one` is that over theta_2 above `ONE_CURVE` alone.
+    `fit_one` is the fit over theta_2 to the waves above `ONE_CURVE` only.
     """
 
     waves: WaveSet
@@ -50,7 +50,7 @@ class Collapsed:
 
 
 def run(runs: Runs, level: Level) -> list[Collapsed]:
-    """Run the waves under both schemes, and fit."""
+    """Run the waves with both schemes, and fit."""
     out = []
     for scheme in SCHEMES:
         result = waves(runs, level, scheme)
@@ -70,7 +70,7 @@ def run(runs: Runs, level: Level) -> list[Collapsed]:
 
 
 def show(data: list[Collapsed], references: References, level: Level) -> Result:
-    """Draw the collapse over both parameters under both schemes, and compare with eq. 16."""
+    """Draw the waves of both schemes over both parameters, and compare with eq. 16."""
     second, fourth = references["eq16.second"], references["eq16.fourth"]
     eq_16 = second.value, fourth.value
     panels, checks, notes, rows = [], [], [], []
@@ -163,7 +163,7 @@ def _checks(c: Collapsed, eq_16: tuple[float, float]) -> list[Check]:
 
 
 def _below(c: Collapsed) -> Finding:
-    """Show where one curve is enough, under the scheme of the paper."""
+    """Return the finding on the range of one curve, for the scheme of the paper."""
     known = c.waves.known
     above, below = (known & (c.theta_2 > ONE_CURVE)), (known & (c.theta_2 <= ONE_CURVE))
 
@@ -181,7 +181,7 @@ def _below(c: Collapsed) -> Finding:
 
 
 def _damping(data: list[Collapsed], eq_16: tuple[float, float], level: Level) -> list[Finding]:
-    """Show the damping of the paper's scheme, where the waves for it have results."""
+    """Return the finding on the damping of the paper's scheme, if its waves have results."""
     m, ell, lam, ratio = DAMPED
     ratios = []
     for c in data:

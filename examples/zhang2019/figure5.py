@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figure 5: a fractal surface, its spectrum, and the radial mean of it."""
+"""Figure 5: a fractal surface, its spectrum, and the radial mean of the spectrum."""
 
 import math
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ TITLE = "An artificial fractal surface and its spectrum"
 
 @dataclass(frozen=True, slots=True)
 class Spectrum:
-    """Surface, its radial mean spectrum (q [rad/m], C_iso [m^4]), what follows from it."""
+    """Surface, its radial mean spectrum (q [rad/m], C_iso [m^4]), rms height and Hurst exponent."""
 
     surface: Topography
     q: pictures.Array
@@ -28,11 +28,11 @@ class Spectrum:
 
 
 def run(runs: Runs, level: Level) -> Spectrum:
-    """Make the surface and its spectrum; the Hurst exponent is that of the slope of C_iso."""
+    """Make the surface and its spectrum; the Hurst exponent follows from the slope of C_iso."""
     surface, _ = tile()
     _, _, c2d = psd_2d(surface)
     q, c_iso = psd_isotropic(surface)
-    # the first annuli are wide against their wavenumber
+    # the first annuli are wide compared with their wavenumber
     straight = (q > 4.0 * q[0]) & (c_iso > 0.0)
     slope = np.polyfit(np.log(q[straight]), np.log(c_iso[straight]), 1)[0]
     rms = math.sqrt(c2d.sum() / (surface.length_x * surface.length_y))

@@ -20,10 +20,10 @@ from pyehl.types import Array, Complex, Mask
 
 NAME = "figure 6"
 TITLE = "Deformed roughness by simulation and by prediction"
-# Inside of the first radius the pressure is high, inside of the second nearly all friction arises
+# Radius of the zone of high pressure, and radius within which nearly all friction arises [a]
 RADIUS = 0.85
 FRICTION = 0.6
-# Lines Y on which the inlet is taken [a]; between them interpolated
+# Lines Y at which the inlet is computed [a]; between them it is interpolated
 LINES = np.linspace(-0.9, 0.9, 9)
 
 
@@ -31,7 +31,7 @@ LINES = np.linspace(-0.9, 0.9, 9)
 class Deformed:
     """Fields on the nodes around the contact, (nx, ny) [m]."""
 
-    # Places [a], (nx,) and (ny,)
+    # Coordinates [a], (nx,) and (ny,)
     x: Array
     y: Array
     # Roughness before, and deformed: by simulation, by our prediction, by the paper's model
@@ -39,7 +39,7 @@ class Deformed:
     simulated: Array
     response: Array
     paper: Array
-    # Rms difference of the roughness put together here from that of the solver, over its rms
+    # Rms difference of the roughness computed here from that of the solver, over its rms
     at_node: float
     made: Made
 
@@ -72,7 +72,7 @@ def run(runs: Runs, level: Level) -> Deformed:
         np.asarray(2.0 * np.pi * np.fft.fftfreq(n, length / n), dtype=np.float64)
         for n, length in zip(surface.shape, lengths, strict=True)
     )
-    # as the solver: waves of two nodes or fewer are left out, in space and in the time steps
+    # as in the solver, waves of two mesh sizes or less are omitted, in space and in time
     values[np.abs(qx) * max(velocity, 1.0) * mesh >= np.pi] = 0.0
     values[:, np.abs(qy) * mesh >= np.pi] = 0.0
     waves = _Waves(values, qx, qy, x - origin, y)
@@ -85,9 +85,9 @@ def run(runs: Runs, level: Level) -> Deformed:
     lines = _response(waves, zone, point, velocity, x)
     place = (np.clip(y, LINES[0], LINES[-1]) - LINES[0]) / (LINES[1] - LINES[0])
     low = np.minimum(place.astype(int), LINES.size - 2)
-    share = place - low
+    weight = place - low
     columns = np.arange(y.size)
-    response = (1.0 - share) * lines[low, :, columns].T + share * lines[low + 1, :, columns].T
+    response = (1.0 - weight) * lines[low, :, columns].T + weight * lines[low + 1, :, columns].T
     whole = waves.field(np.ones(values.shape, complex))
     difference = float(np.std(whole - fields[0]) / np.std(fields[0]))
     return Deformed(x, y, fields[0], fields[1], response, paper, difference, made)
@@ -95,7 +95,7 @@ def run(runs: Runs, level: Level) -> Deformed:
 
 @dataclass(frozen=True, slots=True)
 class _Waves:
-    """Fourier components of a tile, and where it is put together: x from its origin, y [a]."""
+    """Fourier components of a tile, and the coordinates of its field: x from its origin, y [a]."""
 
     values: Complex
     qx: Array
@@ -104,7 +104,7 @@ class _Waves:
     y: Array
 
     def field(self, factor: Complex) -> Array:
-        """Real field (nx, ny) of the components times a factor that is the same everywhere."""
+        """Real field (nx, ny) of the components times a factor of each."""
         along = np.exp(1j * np.outer(self.x, self.qx))
         across = np.exp(1j * np.outer(self.qy, self.y))
         return np.asarray((along @ (self.values * factor) @ across).real)
@@ -125,7 +125,7 @@ def _response(waves: _Waves, zone: Zone, point: OperatingPoint, velocity: float,
         * np.exp(1j * kx * (velocity - 1.0) * np.sqrt(1.0 - offset * offset))
         for offset in LINES
     ]
-    # counted twice: a real field has the conjugates of qx < 0
+    # twice: the conjugates with qx < 0 contribute as much to a real field
     weight = np.where(kx == 0.0, 1.0, 2.0) * waves.values[half]
     across = np.exp(1j * np.outer(waves.qy, waves.y))
     out = np.empty((LINES.size, x.size, waves.y.size))
@@ -139,7 +139,7 @@ def _response(waves: _Waves, zone: Zone, point: OperatingPoint, velocity: float,
 
 
 def _agreement(ours: Array, simulated: Array) -> tuple[float, float]:
-    """Correlation, and rms over that of the simulation."""
+    """Correlation with the simulation, and rms over that of the simulation."""
     return float(np.corrcoef(ours, simulated)[0, 1]), float(np.std(ours) / np.std(simulated))
 
 
@@ -186,15 +186,15 @@ def show(data: Deformed, references: References, level: Level) -> Result:
         (("X", "Y", "undeformed_m", "simulated_m", "response_m", "paper_m"), rows),
         pictures.deformed(data.x, data.y, inside, centred),
         caption,
-        *_told(data, ours, theirs),
+        *_notes_and_findings(data, ours, theirs),
         [data.made],
     )
 
 
-def _told(
+def _notes_and_findings(
     data: Deformed, ours: tuple[float, float], theirs: tuple[float, float]
 ) -> tuple[list[str], list[Finding]]:
-    """Tell how they agree, and why the model of the paper is not reproduced."""
+    """Describe the agreement, and the deviation of the model of the paper."""
     ours_wide, theirs_wide = (
         _agreement(field[data.inside], data.simulated[data.inside])
         for field in (data.response, data.paper)

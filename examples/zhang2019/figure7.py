@@ -15,7 +15,7 @@ from pyehl.types import Array
 
 NAME = "figure 7"
 TITLE = "Relative friction of random surfaces by simulation and by prediction"
-# The slip study: velocity ratios, on a grid that takes a minute
+# The slip study: velocity ratios, and a grid on which it takes a minute
 VELOCITY_RATIOS = (1.0, 1.01)
 SLIP_GRID = 257
 SLIP = "Slip is missing in the paper's prediction"
@@ -27,15 +27,15 @@ class Surfaces:
 
     simulated: Array  # by simulation
     predicted: dict[str, Array]  # by model, see `MODELS`
-    # Of the first seed by simulation and by our prediction, at `VELOCITY_RATIOS`; the paper's model
-    # has no slip
+    # First seed at `VELOCITY_RATIOS`, by simulation and by our prediction; the paper's model has
+    # no slip
     slip: tuple[Array, Array]
-    slip_grid: int  # nodes per side of that
-    studies: list[Made]  # what it rests on
+    slip_grid: int  # nodes per side of the slip study
+    studies: list[Made]  # studies used
 
 
 def run(runs: Runs, level: Level) -> Surfaces:
-    """Simulate and predict the surfaces, and the first at pure rolling."""
+    """Simulate and predict the surfaces, the first one also in pure rolling."""
     rows, studies = simulations(runs, level)
     predicted = {model: predictions(runs, level, model) for model in MODELS}
     grid = min(SLIP_GRID, level.surface_grid)
@@ -65,7 +65,7 @@ def _deviations(predicted: Array, simulated: Array) -> tuple[float, float]:
 
 
 def show(data: Surfaces, references: References, level: Level) -> Result:
-    """Draw both predictions beside the simulation, and compare the mean deviation."""
+    """Draw both predictions with the simulation, and compare the mean deviations."""
     seeds = np.arange(SEED, SEED + data.simulated.size)
     means = {model: _deviations(p, data.simulated) for model, p in data.predicted.items()}
     labels = {

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A parameter of moving waves from the response of the contact, to put beside theta_2.
+"""A parameter of moving waves from the response of the contact, for comparison with theta_2.
 
 To first order a wave of amplitude A changes the logarithm of the shear stress by A S cos cos with
 
     S = b K (1 - T) + T/H_c,    b = d ln eta/dP at the pressure of the centre,
 
-the pressure that flattens the wave and the film that it leaves; K (1 - T) and T are those of
-:mod:`pyehl.theory.response` at X = Y = 0, so that slip, direction and nabla_2 are in them. The time
-mean of exp of that is 1 + (A|S|)^2/4 times the mean of cos^2 across the contact. Friction comes
-from a Gaussian of variance 1/b around the centre, where that mean is (1 + exp(-2 k^2/b))/2. So
+the effects of the pressure and of the film of the wave; K (1 - T) and T are those of
+:mod:`pyehl.theory.response` at X = Y = 0 and include slip, direction and nabla_2. The time mean of
+the exponential is 1 + (A|S|)^2/4 times the mean of cos^2 across the contact. The friction is
+distributed as a Gaussian of variance 1/b about the centre, with that mean (1 + exp(-2 k^2/b))/2. So
 
     theta_r = 1/(A |S| sqrt((1 + exp(-2 k^2/b))/2))
 
@@ -32,7 +32,7 @@ SMALL_WAVES = 0.25
 def response_parameter(
     moes_m: Array, moes_l: Array, wavelength: Array, amplitude: Array, velocity_ratio: float
 ) -> Array:
-    """theta_r [-] of waves cos cos with equal wavelengths along X and Y.
+    """Compute theta_r [-] of waves cos cos with equal wavelengths along X and Y.
 
     M, L, wavelength [a] and A_i [a^2/R], (n,) each. EhlError if a smooth contact does not
     converge.
@@ -45,7 +45,7 @@ def response_parameter(
 
 
 def _of_contact(moes_m: float, moes_l: float, wavelength: Array, velocity_ratio: float) -> Array:
-    """theta_r times the amplitude, (n,) [a^2/R]."""
+    """Compute theta_r times the amplitude, (n,) [a^2/R]."""
     text = f"&contact moes_m = {moes_m!r} moes_l = {moes_l!r} /\n"
     settings = Case.from_text(text, origin="response").resolve()
     point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)

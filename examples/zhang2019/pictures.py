@@ -30,7 +30,7 @@ def wave_history(runs: Sequence[tuple[str, Array, Array]], mean: float) -> Figur
     """
     figure = new_figure(COLUMN, 3.0)
     ax = figure.subplots()
-    # the means differ by less than the lines are wide: their end once more, magnified
+    # the means differ by less than the line width: magnify the end
     close = ax.inset_axes((0.6, 0.24, 0.38, 0.42))
     for (label, time, ratio), colour in zip(runs, COLOURS, strict=False):
         ax.plot(time, ratio, color=colour, lw=0.9, label=label)
@@ -78,7 +78,7 @@ def friction_over_film(panels: Sequence[tuple[str, Sequence[Series]]]) -> Figure
 
 
 def _points(ax: Axes, series: Sequence[Series], *, lines: bool) -> None:
-    """Draw the waves in a colour and a marker for each wavelength."""
+    """Draw the waves, with a colour and a marker for each wavelength."""
     lengths = sorted({s.wavelength for s in series})
     for s in series:
         k = lengths.index(s.wavelength)
@@ -93,7 +93,7 @@ def _points(ax: Axes, series: Sequence[Series], *, lines: bool) -> None:
 
 
 def _legend_of_waves(figure: Figure, ax: Axes) -> None:
-    """Say below the panels which wavelength is which."""
+    """Draw a legend of the wavelengths below the panels."""
     handles, labels = ax.get_legend_handles_labels()
     waves = {label: h for h, label in zip(handles, labels, strict=True) if LAMBDA in label}
     figure.legend(
@@ -128,13 +128,13 @@ class Collapse:
     title: str
     abscissa: str
     series: Sequence[Series]
-    # Label, format, abscissa (m,) and mu_r/mu_s (m,) of lines through them
+    # Label, format, abscissa (m,) and mu_r/mu_s (m,) of fitted curves
     curves: Sequence[tuple[str, str, Array, Array]]
 
 
 @styled()
 def collapses(panels: Sequence[Collapse]) -> Figure:
-    """Draw mu_r/mu_s over parameters that may bring all waves on one curve (Fig. 4)."""
+    """Draw mu_r/mu_s over parameters that may collapse all waves to one curve (Fig. 4)."""
     rows = -(-len(panels) // 2)
     figure = new_figure(PAGE, 2.5 * rows + 0.8)
     axes = np.atleast_1d(figure.subplots(rows, 2, sharey=True)).ravel()
@@ -155,7 +155,7 @@ def collapses(panels: Sequence[Collapse]) -> Figure:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One step of the prediction: what it is, its field (nx, ny), unit, and if it is signed."""
+    """One step of the prediction: title, field (nx, ny), unit, and whether it is signed."""
 
     title: str
     field: Array
@@ -211,7 +211,7 @@ def spectrum(topography: Topography) -> Figure:
 def deformed(x: Array, y: Array, inside: Mask, fields: Mapping[str, Array]) -> Figure:
     """Draw roughness fields on one scale, their height distributions and centre lines (Fig. 6).
 
-    At places (nx,), (ny,) [a], where `inside` (nx, ny); heights (nx, ny) [m] by name, the
+    Coordinates (nx,), (ny,) [a]; drawn nodes `inside` (nx, ny); heights (nx, ny) [m] by name, the
     undeformed ones first, then the simulation.
     """
     figure = style.new_figure(PAGE, 4.4)
@@ -241,7 +241,7 @@ def deformed(x: Array, y: Array, inside: Mask, fields: Mapping[str, Array]) -> F
         if name != "undeformed":
             shown = inside[:, line]
             middle.plot(x[shown], 1e9 * field[shown, line], color=colour, lw=1.1, label=name)
-    histogram.set(xlabel="height [nm]", ylabel="share per nm")
+    histogram.set(xlabel="height [nm]", ylabel="probability density [1/nm]")
     figure.legend(*histogram.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     middle.set(xlabel="$X$ on the line $Y$ = 0", ylabel="height [nm]")
     return figure

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a piece of the paper is, and what becomes of it."""
+"""Figures and tables of the paper: levels of effort, references, checks and results."""
 
 import csv
 import math
@@ -16,17 +16,17 @@ from pyehl.plots.style import Figure
 
 @dataclass(frozen=True, slots=True)
 class Level:
-    """How much of the paper is computed."""
+    """Level of effort: how much of the paper is computed."""
 
-    name: str  # of the level
+    name: str
     # Nodes per side of Fig. 2, the coarsest first; the last is compared with the paper
     wave_grids: tuple[int, ...]
     collapse_grid: int  # nodes per side of the waves of Figs 3 and 4
-    film_grid: int  # nodes per side of the smooth contacts whose film amplitudes are a share of
+    film_grid: int  # nodes per side of the smooth contacts to whose film amplitudes are relative
     surface_grid: int  # nodes per side of the surfaces of Figs 6 and 7
     meshes: tuple[int, ...]  # nodes per side of Table 2
     surfaces: int  # number of surfaces of Fig. 7
-    leaves_out: str  # what the level leaves out, in words
+    leaves_out: str  # what the level omits, in words
 
 
 QUICK = Level(
@@ -63,18 +63,18 @@ LEVELS = {level.name: level for level in (QUICK, FULL)}
 class Reference:
     """One number of the paper."""
 
-    name: str  # of the number
+    name: str
     # As printed
     value: float
     unit: str
-    # Where it stands, and how it was read: 'text', 'table', 'derived', 'digitised'
+    # Page, place on it, and how it was read: 'text', 'table', 'derived', 'digitised'
     page: str
     where: str
     how: str
-    reading: float  # uncertainty of the reading, in its unit
-    # Allowed deviation, in its unit; None: not compared, and `why` says why
+    reading: float  # uncertainty of the reading, in the same unit
+    # Allowed deviation, in the same unit; None: not compared
     tolerance: float | None
-    why: str  # what the tolerance is
+    why: str  # reason for the tolerance, or for none
 
 
 References = Mapping[str, Reference]
@@ -97,15 +97,15 @@ def read_references() -> dict[str, Reference]:
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """A number of ours beside one of the paper, or of another program."""
+    """Comparison of a number of ours with one of the paper or of another program."""
 
-    name: str  # what it is, in words
-    value: float  # ours; NaN where there is none
+    name: str  # the quantity, in words
+    value: float  # ours; NaN without a result
     expected: float  # theirs
     tolerance: float | None  # allowed deviation; None: reported, not judged
-    why: str  # what the tolerance is, or why there is none
-    source: str  # where theirs is from
-    # Title of the `Finding` that shows why the paper is not reproduced, should it not be
+    why: str  # reason for the tolerance, or for none
+    source: str  # source of theirs
+    # Title of the `Finding` that explains a deviation beyond the tolerance
     finding: str = ""
 
     @classmethod
@@ -118,7 +118,7 @@ class Check:
 
     @property
     def deviation(self) -> float:
-        """Ours less theirs."""
+        """Ours minus theirs."""
         return self.value - self.expected
 
     @property
@@ -131,12 +131,12 @@ class Check:
         """Whether it is within its tolerance, or not judged."""
         if self.tolerance is None:
             return True
-        # inputs are compared to rounding
+        # inputs must agree up to rounding
         return abs(self.deviation) <= self.tolerance + 1e-12 * abs(self.expected)
 
     @property
     def explained(self) -> bool:
-        """Whether it is beyond its tolerance, and a finding of the report shows why."""
+        """Whether it is beyond its tolerance and a finding of the report explains it."""
         return not self.passed and bool(self.finding)
 
     @property
@@ -147,7 +147,7 @@ class Check:
         return ("pass" if self.passed else "FAIL") if self.judged else "not judged"
 
     def row(self) -> dict[str, str]:
-        """Give what a table says of it."""
+        """Return its row in the table of the report."""
         share = f" ({100.0 * self.deviation / self.expected:+.2f} %)" if self.expected else ""
         known = math.isfinite(self.value)
         allowed = "-" if self.tolerance is None else f"{self.tolerance:.2g}"
@@ -162,14 +162,14 @@ class Check:
         }
 
     def __str__(self) -> str:
-        """Give the row in a line."""
+        """Return the row in a line."""
         name, *cells = self.row().items()
         return f"{name[1]}: " + ", ".join(f"{head} {cell}" for head, cell in cells)
 
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """Where and why the paper is not reproduced; `text` states numbers of the runs above it."""
+    """An explanation why the paper is not reproduced; `text` has numbers of the runs."""
 
     title: str
     text: str
@@ -177,28 +177,28 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """A piece of the paper, redone; `reproduce` names it and writes its files."""
+    """A reproduced piece of the paper; `reproduce` names it and writes its files."""
 
-    checks: Sequence[Check] = ()  # deviations
-    # Names of columns and rows of the numbers of the picture; None where a run has failed
+    checks: Sequence[Check] = ()  # comparisons with the paper
+    # Column names and rows of the numbers of the picture; None where a run has failed
     table: tuple[Sequence[str], Sequence[Iterable[object]]] | None = None
     figure: Figure | None = None
     caption: str = ""
-    notes: Sequence[str] = ()  # what else is to be said, a sentence or two each
+    notes: Sequence[str] = ()  # remarks of a sentence or two each
     findings: Sequence[Finding] = ()  # where the paper is not reproduced
-    studies: Sequence[Made] = ()  # that it rests on
-    alone: float = 0.0  # processor time of what is no study [s]
+    studies: Sequence[Made] = ()  # studies used
+    alone: float = 0.0  # processor time outside of studies [s]
     paper_seconds: str = ""  # the time that the paper states, in words; '' for none
-    # 'figure 2', what it shows, its folder, and how long it took [s]
+    # 'figure 2', its title, its folder, and its elapsed time [s]
     name: str = ""
     title: str = ""
     folder: Path = Path()
     wall: float = 0.0
-    failed: str = ""  # which run has no result, so that the piece has none; '' for none
-    unjudged: str = ""  # why no number of it can be judged; '' where some can
+    failed: str = ""  # the run without a result that prevents this piece; '' if none
+    unjudged: str = ""  # why none of its numbers can be judged; '' if some can
 
     def file(self, suffix: str) -> Path:
-        """Path of its '.csv' or '.png'."""
+        """Return the path of its '.csv' or '.png'."""
         return self.folder / f"{self.folder.name}{suffix}"
 
     @property
@@ -213,7 +213,7 @@ class Result:
 
     @property
     def verdict(self) -> str:
-        """'pass', 'FAIL', 'not reproduced' (a finding shows why) or 'nothing to judge'."""
+        """'pass', 'FAIL', 'not reproduced' (a finding explains it) or 'nothing to judge'."""
         if not self.passed:
             return "FAIL"
         if not any(check.judged for check in self.checks):
@@ -221,7 +221,7 @@ class Result:
         return "pass" if all(check.passed for check in self.checks) else "not reproduced"
 
     def line(self) -> str:
-        """Give the line of deviations."""
+        """Return the summary of its checks in a line."""
         if self.failed:
             return f"FAIL: {self.failed}"
         judged = [check for check in self.checks if check.judged]
@@ -239,14 +239,14 @@ class Result:
 class Piece(Protocol):
     """A figure or table of the paper.
 
-    `run` computes, and does not see the paper; `show` draws and compares what `run` gave.
+    `run` computes without the numbers of the paper; `show` draws and compares its results.
     """
 
     NAME: str
     TITLE: str
 
     def run(self, runs: Runs, level: Level) -> Any:  # noqa: ANN401 (each its own)
-        """Make the studies and what follows from them."""
+        """Run the studies and evaluate them."""
 
     def show(
         self,
@@ -254,4 +254,4 @@ class Piece(Protocol):
         references: References,
         level: Level,
     ) -> Result:
-        """Draw and compare."""
+        """Draw, and compare with the paper."""

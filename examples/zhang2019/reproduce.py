@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures and tables of Zhang, Biboulet, Venner & Lubrecht 2019 by own runs, beside its numbers.
+"""Reproduce figures and tables of Zhang, Biboulet, Venner & Lubrecht 2019, and compare.
 
-Redoes all of them unless some are named, compares them with the numbers of the paper (doi
+Runs all of them unless some are named, compares them with the numbers of the paper (doi
 10.1016/j.triboint.2019.01.028), and writes a report. Started again it computes what is missing.
 Exit status: 0 all deviations are within their tolerances or explained by runs of the report, 1 at
 least one is neither, 2 bad input, 130 interrupted.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Studies under the figures: made by the machinery of ``pyehl sweep``, hence resumed, never redone.
+"""Studies behind the figures: run as by ``pyehl sweep``, hence resumed and never repeated.
 
-Each study is a folder with its journal and its table; their rows are where the figures come from.
+Each study is a folder with its journal and its table, whose rows the figures show.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -21,22 +21,21 @@ from pyehl.types import Array, Row
 
 
 class RunFailed(EhlError):  # noqa: N818 (what happened)
-    """A run has no result without which there is no figure."""
+    """A run that a figure needs has no result."""
 
 
 @dataclass(frozen=True, slots=True)
 class Made:
     """A finished study."""
 
-    # Of the study
     name: str
     folder: Path
-    # Results by their names in ``summary.json`` with what was varied, in the order asked for
+    # Results by their names in ``summary.json`` with the varied keys, in the order of the cases
     rows: tuple[Row, ...]
-    kept: tuple[Path, ...] = ()  # result folders of the cases; empty where none were kept
+    kept: tuple[Path, ...] = ()  # result folders of the cases; empty if none were kept
 
     def solved(self, place: int) -> Row:
-        """Row of a case without which there is no figure; RunFailed if it has no result."""
+        """Return the row of a case that a figure needs; RunFailed if it has no result."""
         row = self.rows[place]
         if why := why_none(row):
             raise RunFailed(f"case {place + 1} of the study '{self.name}': {why}")
@@ -50,13 +49,13 @@ class Made:
 
 @dataclass(slots=True)
 class Runs:
-    """Makes studies in a folder."""
+    """Runs studies in a folder."""
 
-    folder: Path  # where they go
+    folder: Path
     jobs: int = 0  # worker processes; 0: as many as processors
-    # Gives the watcher of a study, from its name and plan; None: nobody looks
+    # Returns the watcher of a study from its name and plan; None: without watcher
     watch: Callable[[str, Plan], Watcher] | None = None
-    made: dict[str, Made] = field(default_factory=dict)  # the studies that were asked for, by name
+    made: dict[str, Made] = field(default_factory=dict)  # finished studies by name
 
     def study(
         self,
@@ -68,12 +67,11 @@ class Runs:
         run: str = "solve",
         keep: bool = False,
     ) -> Made:
-        """Run what is missing of a study, and give its rows.
+        """Run the missing cases of a study, and return it.
 
-        The cases share a namelist text and options; all keys of `vary` move together. `keep`: each
-        case keeps its result folder. InputError if the folder holds another study of that name, or
-        a case is not acceptable; KeyboardInterrupt if somebody stopped it: what was finished is
-        kept.
+        The cases share a namelist text and options; all keys of `vary` vary together. `keep`: each
+        case keeps its result folder. InputError if the folder has another study of that name, or a
+        case is not valid; KeyboardInterrupt if it is interrupted: finished cases are kept.
         """
         if name in self.made:
             return self.made[name]
@@ -93,5 +91,5 @@ class Runs:
 
 
 def friction_of(rows: Sequence[Row]) -> Array:
-    """mu_r/mu_s of rows (n,); NaN where a run has none."""
+    """Return mu_r/mu_s of rows (n,); NaN where a run has none."""
     return np.array([np.nan if r.get("mu_ratio") is None else r["mu_ratio"] for r in rows])

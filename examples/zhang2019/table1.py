@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Table 1: the operating conditions, and what follows from them."""
+"""Table 1: the operating conditions, and quantities that follow from them."""
 
 from piece import Check, Level, References, Result
 from runs import Runs
@@ -22,7 +22,7 @@ CASE = """&contact
    pixels = 256  hurst = 0.8  rolloff_wavenumber = 0.0  velocity_ratio = 1.01
 /
 """
-"""The case of Table 1, as all pieces with its surface take it."""
+"""The case of Table 1, for all pieces with its surface."""
 GIVEN = "load mean_velocity radius reduced_modulus pressure_viscosity viscosity".split()
 FOLLOWING = "moes_m moes_l hertz_pressure hertz_radius speed_parameter".split()
 
@@ -45,7 +45,7 @@ def run(runs: Runs, level: Level) -> dict[str, float]:
 
 
 def show(data: dict[str, float], references: References, level: Level) -> Result:
-    """Compare with what is printed, and with what follows from it by hand."""
+    """Compare with the printed numbers, and with those that follow from them by hand."""
     checks = [Check.of(name, value, references[f"table1.{name}"]) for name, value in data.items()]
     rows = [
         (name, c.value, c.expected, references[f"table1.{name}"].unit, c.deviation)

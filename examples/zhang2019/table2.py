@@ -22,12 +22,12 @@ class Meshes:
     studies: list[Made]
 
     def value(self, mesh: int, method: str) -> float:
-        """mu_r/mu_s on a mesh by a method."""
+        """Return mu_r/mu_s on a mesh by a method."""
         return next(r[2] for r in self.rows if r[:2] == (mesh, method))
 
 
 def run(runs: Runs, level: Level) -> Meshes:
-    """Simulate the surface under both schemes, and predict what each mesh resolves of it."""
+    """Simulate the surface with both schemes, and predict it with the waves each mesh resolves."""
     shared = deformed_run(runs, level)
     cases = [
         (mesh, scheme)
@@ -46,7 +46,7 @@ def run(runs: Runs, level: Level) -> Meshes:
     ]
     if level.surface_grid in level.meshes:
         rows.append(_row(level.surface_grid, "simulation, narrow", shared.rows[0]))
-    # a mesh resolves waves of more than two nodes
+    # a mesh resolves waves longer than two mesh sizes
     shortest = [2.0 * WIDTH / (mesh - 1) * tile()[1].hertz_radius for mesh in level.meshes]
     shortest = [float(f"{length:.6g}") for length in shortest]
     studies = [shared, made]
@@ -70,7 +70,7 @@ def _row(mesh: int, method: str, row: Row) -> tuple[int, str, float, float]:
 
 
 def show(data: Meshes, references: References, level: Level) -> Result:
-    """Write the table; the paper's numbers are of another surface."""
+    """Write the table; the numbers of the paper are for another surface."""
     checks = []
     for mesh in level.meshes:
         theirs = references.get(f"table2.ehl.{mesh}")

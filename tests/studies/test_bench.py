@@ -214,7 +214,7 @@ def test_cases_of_a_campaign_cover_what_can_be_asked_for():
     assert {case.values["time.scheme"] for case in moving} == {"narrow", "paper"}
     # every run has a bound: steps asked for, or few enough until the mean can settle
     for case in moving:
-        assert case.values["time.steps"] in (0, stress_cases.BOUNDS[case.points])
+        assert case.values["time.steps"] in (0, stress_cases.MAX_STEPS[case.points])
 
 
 def test_the_record_is_of_the_cases_that_are_drawn(script):
