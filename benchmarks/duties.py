@@ -133,10 +133,11 @@ def duty(rng: np.random.Generator, shape: str) -> tuple[str, dict[str, Any]]:
         film = pyehl.film(Case.from_text("", _steady(values))).formulas[0]["h_c_m"]
         if rng.random() < 0.5:
             values |= {"surface.kind": "harmonic", "surface.wavelength": 1.0}
-            ratio = rng.uniform(0.05, 0.3)
-            height = film / one.film_scale * ratio
+            relative = rng.uniform(0.05, 0.3)
+            height = film / one.film_scale * relative
             # in a thick film an amplitude above a^2/R is given over the film
-            name, value = ("amplitude_over_film", ratio) if height > 1.0 else ("amplitude", height)
+            name = "amplitude_over_film" if height > 1.0 else "amplitude"
+            value = relative if height > 1.0 else height
             values[f"surface.{name}"] = float(f"{value:.3g}")
         else:
             values["lubricant.boundary_film"] = float(f"{film * rng.uniform(0.3, 1.0):.3g}")
