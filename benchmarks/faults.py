@@ -140,7 +140,7 @@ def _kill_runs(folder: Path, generator: np.random.Generator, kills: int) -> Foun
     if last.returncode:
         bad.append(f"the last run: {last.stderr}")
     _compare(out, whole, "in the end", bad)
-    return done, {"killed": done, "ended first, or in the end": finished + 1}, bad
+    return done, {"killed": done, "completed": finished + 1}, bad
 
 
 def _go_on(out: Path) -> list[str]:
@@ -176,7 +176,7 @@ def _kill_sweeps(folder: Path, generator: np.random.Generator, kills: int) -> Fo
     last = run(folder, *words, "sweep")
     if last.returncode or _table(out) != wanted:
         bad.append(f"in the end: another table, exit status {last.returncode}: {last.stderr}")
-    return done, {"killed": done, "ended first, or in the end": finished + 1}, bad
+    return done, {"killed": done, "completed": finished + 1}, bad
 
 
 def _table(folder: Path) -> list[dict[str, str]]:

@@ -39,7 +39,7 @@ for ax, k in zip(panels.ravel(), np.arange(-4, 0), strict=True):
 plt.show()
 
 # %%
-# Friction over time. The mean is taken over the last, shaded period.
+# Friction against time. The mean is taken over the last, shaded period.
 
 figure, ax = plt.subplots(figsize=(3.35, 2.4), layout="constrained")
 transient.friction_history(

@@ -16,7 +16,7 @@ p = pyehl.predict("../../cases/table1.nml", {"surface.seed": 3})
 print(f"mu_r/mu_s = {p.mu_ratio:.3f} +- {float(p.data.mu_ratio_model_error):.3f}")
 
 # %%
-# The friction varies over a passage of the surface, because the contact contains only a few of the
+# The friction varies during a passage of the surface, because the contact contains only a few of the
 # long waves. Right: the contribution of each octave of wavelengths.
 
 figures = pyehl.plot(p.data)

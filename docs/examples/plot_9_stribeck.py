@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """
-Friction over film thickness
-============================
+Friction against film thickness
+===============================
 
 At lower speeds the film is thinner and the roughness adds more friction: this is the full-film part
 of a Stribeck curve. The command ``pyehl stribeck`` draws such curves with error bands, full

@@ -170,7 +170,7 @@ def random_contacts_at_a_film() -> Values:
         "vanishing": "prediction without roughness: load share",
         "rough": "prediction of the rough contact: load share",
     }
-    lines = "| | contacts | compared | touching | no number | outside of the stated errors |\n"
+    lines = "| | contacts | compared | in contact | no value | outside the stated errors |\n"
     lines += "|---|---|---|---|---|---|"
     heat = "solution: mu = mu_smooth mu_ratio"
     for kind, head in heads.items():

@@ -40,8 +40,8 @@ def guard() -> Values:
     """Cycles that fail: when they are rejected, damped, accelerated."""
     result = constants("multigrid/cycle.f90", "damped_log_change damped_sweep damped_correction")
     lines = [
-        "| degree | change of ln ε in a sweep, of full | share of a sweep | share of a coarse "
-        "grid's change |",
+        "| degree | limit on changes of ln ε, relative | factor on changes in a sweep | factor on "
+        "coarse-grid corrections |",
         "|---|---|---|---|",
     ]
     for degree, (limit, sweep, correction) in enumerate(zip(*result.values(), strict=True), 1):

@@ -212,9 +212,9 @@ def _notes_and_findings(
     findings = [
         Finding(
             "Free waves and slip in the deformed roughness",
-            "The amplitude ratio of the paper moves with the roughness: its deformed surface "
-            f"correlates with the simulation by {theirs[0]:.3f}, ours, whose free waves are "
-            "generated in the inlet and transported at the mean velocity, by "
+            "In the paper the deformed roughness moves with the rough surface. Its correlation "
+            f"with the simulation is {theirs[0]:.3f}. That of our prediction, whose free waves are "
+            "generated in the inlet and transported at the mean velocity, is "
             f"{ours[0]:.3f}. The paper compares only height distributions, which a shift does not "
             "change.",
         )

@@ -137,24 +137,24 @@ def _findings(
             f"On {data.slip_grid} x {data.slip_grid} nodes the surface of seed {SEED} has "
             f"mu_r/mu_s = {rolling:.3f} in pure rolling (U_rat = 1) and {slipping:.3f} at "
             f"U_rat = 1.01 by simulation, {predicted[0]:.3f} and {predicted[1]:.3f} by our "
-            "prediction. The paper's model has one amplitude ratio for "
-            f"both and gives {data.predicted['paper'][0]:.3f}. Over all surfaces its mean "
+            "prediction. The paper's model ignores slip and "
+            f"gives {data.predicted['paper'][0]:.3f}. Over all surfaces its mean "
             f"deviation is {100 * means['paper'][1]:+.1f} %, that of our prediction "
             f"{100 * means['response'][1]:+.1f} %.",
         ),
         Finding(
             "The paper's surface is not published",
-            f"mu_r/mu_s = {printed:g} (Table 2) belongs to one surface. Surfaces of the same "
-            f"inputs and other seeds have {spread[0]:.3f} to {spread[1]:.3f} here: the inputs do "
-            "not determine the number.",
+            f"mu_r/mu_s = {printed:g} (Table 2) is the value of one surface. Surfaces with the "
+            f"same inputs and other seeds have {spread[0]:.3f} to {spread[1]:.3f} here: the inputs "
+            "do not determine this value.",
         ),
         Finding(
             "Misprints and readings",
             f"Eq. 11 with its wavelength read as 2 pi/|q| is {100 * (PAPER_STIFFNESS - 1.0):.0f} % "
-            "stiffer than the half-space, and the viscosity law of the prediction is not stated. "
-            "Read literally, with Barus' law of the appendix, "
-            f"the paper's model gives a mean of {np.nanmean(data.predicted['literal']):.3f}, with "
-            "the exact stiffness and Roelands' law of its section 2 "
-            f"{np.nanmean(data.predicted['paper']):.3f}, for the same surfaces.",
+            "stiffer than the half-space, and the paper does not state the viscosity law of the "
+            "prediction. For the same surfaces the paper's model gives a mean of "
+            f"{np.nanmean(data.predicted['literal']):.3f} if read literally, with Barus' law of "
+            f"the appendix, and of {np.nanmean(data.predicted['paper']):.3f} with the exact "
+            "stiffness and Roelands' law of section 2.",
         ),
     ]

@@ -119,6 +119,7 @@ def _findings(data: Meshes, level: Level) -> list[Finding]:
             f"{100 * change['paper']:.1f} % under the scheme of the paper and by "
             f"{100 * change['narrow']:.1f} % under the narrow one; on the finer mesh the two "
             f"schemes are {100 * apart:.1f} % apart. The short waves, which cause the increase at "
-            "1 % of slip, are not resolved by the meshes and damped by the scheme of the paper.",
+            "1 % of slip, are not resolved by these meshes and are damped by the scheme of the "
+            "paper.",
         )
     ]

@@ -30,7 +30,7 @@ class Contact:
     shape: str = word(
         "point",
         "point|line|roller",
-        "point contact, infinite line, or roller of finite length, with keys of their own",
+        "point contact, infinite line contact, or roller of finite length, each with its own keys",
     )
     moes_m: float = real(1000.0, "-", "(0, 1e6]", "Moes load parameter M")
     moes_l: float = real(10.0, "-", "[0, 100]", "Moes material parameter L")
@@ -42,10 +42,12 @@ class Contact:
         1.0,
         "-",
         "[0.004, 250]",
-        "R_x/R_y of an elliptical contact, whose M and L are by R_x; 1: round",
+        "R_x/R_y of an elliptical contact, with M and L defined by R_x; 1: round",
     )
     load: float = real(600.0, "N", "(0, 1e5]", "load")
-    load_per_length: float = real(2e5, "N/m", "(0, 1e9]", "load on a line, per length")
+    load_per_length: float = real(
+        2e5, "N/m", "(0, 1e9]", "load per length of an infinite line contact"
+    )
     mean_velocity: float = real(0.84, "m/s", "(0, 200]", "mean velocity of the two surfaces")
     radius: float = real(
         0.018, "m", "[1e-5, 10]", "reduced radius of a round or line contact, or of a roller"
@@ -54,7 +56,7 @@ class Contact:
         0.0, "m", "0 or [1e-5, 1000]", "reduced radius in the plane of the motion; 0: radius"
     )
     radius_y: float = real(
-        0.0, "m", "0 or [1e-5, 1000]", "reduced radius across the motion; both or none"
+        0.0, "m", "0 or [1e-5, 1000]", "reduced radius across the motion; required with radius_x"
     )
     reduced_modulus: float = real(
         2.26e11, "Pa", "[1e4, 2e12]", "E' with 2/E' = sum of (1 - nu^2)/E over the bodies"
@@ -63,7 +65,7 @@ class Contact:
         0.0,
         "Pa",
         "0 or [1e5, 1e12]",
-        "maximum pressure of the solids, with boundary_film; 0: no limit",
+        "maximum pressure that the solids sustain, with boundary_film; 0: no limit",
     )
     angle: float = real(
         0.0,
@@ -77,24 +79,28 @@ class Contact:
         "[-2, 2]",
         "slide-to-roll ratio (u1 - u2)/u; follows from a given velocity_ratio of a surface",
     )
-    rough_surface: int = whole(1, "[1, 2]", "body with &surface; the other has &second_surface")
+    rough_surface: int = whole(
+        1,
+        "[1, 2]",
+        "body with the roughness of &surface; the other body has that of &second_surface",
+    )
     thermal_conductivity: float = real(
         46.0,
         "W/(m K)",
         "[0.1, 500]",
-        "thermal conductivity of the solids, for the heat of friction",
+        "thermal conductivity of the solids, for frictional heating",
     )
     thermal_diffusivity: float = real(
         1.25e-5,
         "m^2/s",
         "[1e-8, 1e-3]",
-        "thermal diffusivity of the solids, for the heat of friction",
+        "thermal diffusivity of the solids, for frictional heating",
     )
     thermal_conductivity_2: float = real(
-        0.0, "W/(m K)", "0 or [0.1, 500]", "that conductivity of body 2; 0: the same"
+        0.0, "W/(m K)", "0 or [0.1, 500]", "thermal conductivity of body 2; 0: thermal_conductivity"
     )
     thermal_diffusivity_2: float = real(
-        0.0, "m^2/s", "0 or [1e-8, 1e-3]", "that diffusivity of body 2; 0: the same"
+        0.0, "m^2/s", "0 or [1e-8, 1e-3]", "thermal diffusivity of body 2; 0: thermal_diffusivity"
     )
     length: float = real(0.0, "m", "0 or [1e-5, 10]", "length of a roller")
     profile: str = word(
@@ -102,12 +108,19 @@ class Contact:
         "none|crown|logarithmic|chamfer|file",
         "profile of body 1 of a roller, or of both bodies together",
     )
-    crown_radius: float = real(0.0, "m", "0 or [1e-4, 1e6]", "crown: y^2/(2 crown_radius)")
-    log_amplitude: float = real(
-        0.0, "m", "0 or [1e-10, 1e-2]", "logarithmic: -log_amplitude ln(1 - (2y/length)^2)"
+    crown_radius: float = real(
+        0.0, "m", "0 or [1e-4, 1e6]", "radius of a crown, with the drop y^2/(2 crown_radius)"
     )
-    chamfer_length: float = real(0.0, "m", "0 or [1e-7, 1]", "length of a chamfer, at both ends")
-    chamfer_drop: float = real(0.0, "m", "0 or [1e-9, 1]", "drop of a chamfer at the end")
+    log_amplitude: float = real(
+        0.0,
+        "m",
+        "0 or [1e-10, 1e-2]",
+        "amplitude of a logarithmic profile, with the drop -log_amplitude ln(1 - (2y/length)^2)",
+    )
+    chamfer_length: float = real(0.0, "m", "0 or [1e-7, 1]", "length of the chamfer at each end")
+    chamfer_drop: float = real(
+        0.0, "m", "0 or [1e-9, 1]", "drop of the chamfer at the end of the roller"
+    )
     profile_file: str = path("table of y and drop, two columns in m separated by a comma")
     misalignment: float = real(0.0, "rad", "[-0.1, 0.1]", "angle between the axes of a roller")
     profile_2: str = word(
@@ -178,18 +191,23 @@ class Inlet:
     position: float = real(
         0.0, "m", "[0, 10]", "position of the meniscus ahead of the centre, with P = 0; 0: flooded"
     )
-    position_hertz: float = real(0.0, "a", "0 or [1.05, 1e4]", "the same in Hertz radii")
+    position_hertz: float = real(
+        0.0, "a", "0 or [1.05, 1e4]", "position of the meniscus in Hertz radii"
+    )
     film: float = real(
         0.0, "m", "[0, 0.01]", "oil layer that arrives on both surfaces together; 0: flooded"
     )
-    film_hertz: float = real(0.0, "a^2/R", "[0, 1e4]", "the same in Hertz units")
+    film_hertz: float = real(0.0, "a^2/R", "[0, 1e4]", "oil layer that arrives, in Hertz units")
     passages: int = whole(
         1,
         "[1, 1000]",
         "successive contacts: the oil that one leaves is the inlet layer of the next",
     )
     replenishment: float = real(
-        0.0, "-", "[0, 1]", "share of the oil missing from inlet.film that returns between them"
+        0.0,
+        "-",
+        "[0, 1]",
+        "share of the oil missing from inlet.film that flows back between passages",
     )
 
     @property
@@ -205,28 +223,28 @@ class Grid:
     points: int = whole(
         513,
         "[17, 4097]",
-        "nodes along X; points - 1 halved stays even down to 32; default 1025 if 513 misses 5 % "
-        "of H_c",
+        "nodes along X: an even number up to 32, times a power of 2, plus 1; default 1025 where "
+        "the expected error of H_c on 513 exceeds 5 %",
     )
     points_y: int = whole(
         0,
         "0 or [9, 40961]",
-        "nodes along Y, which can be halved as often; default points in a round contact, "
-        "else by the shape of the cells",
+        "nodes along Y, which allow as many coarser grids as points; default: points in a round "
+        "contact, otherwise from the shape of the cells",
     )
-    x_inlet: float = real(-2.5, "a", "[-1e4, -1.05]", "inlet boundary X; default by M and L")
-    x_outlet: float = real(1.5, "a", "[1.05, 1e4]", "outlet boundary X; default by M and L")
+    x_inlet: float = real(-2.5, "a", "[-1e4, -1.05]", "inlet boundary X; default from M and L")
+    x_outlet: float = real(1.5, "a", "[1.05, 1e4]", "outlet boundary X; default from M and L")
     y_extent: float = real(
         2.0,
         "a",
         "[0.03, 1e4]",
-        "side boundaries Y = -y_extent and y_extent; default by M, L and the ellipse",
+        "side boundaries Y = -y_extent and y_extent; default from M, L and the ellipse",
     )
     border: str = word(
         "zero",
         "flooded|zero",
-        "pressure of a flooded contact, or P = 0; default: the former below M = 500, above "
-        "kappa = 4 and on a line",
+        "pressure at the border: that of a fully flooded contact, or P = 0; default: flooded "
+        "below M = 500, above kappa = 4 and for a line contact",
     )
     target_error: float = real(
         0.0, "-", "0 or [1e-5, 0.1]", "required relative error of H_c; 0: solve on the given points"
@@ -252,12 +270,12 @@ class Time:
         "relative change of the period mean of mu_r/mu_s below which a run stops",
     )
     max_periods: int = whole(
-        0, "[0, 100000]", "maximum number of periods, with two surfaces of the slower one; 0: 36"
+        0, "[0, 100000]", "maximum number of periods, of the slower of two surfaces; 0: 36"
     )
     start: str = word(
         "front",
         "front|prediction",
-        "roughness enters behind a front, or fills the contact as pyehl predicts",
+        "roughness enters behind a front, or fills the contact from the start as predicted",
     )
     skip_start: bool = truth(True, "skip the steps before the roughness is near the contact")
     estimate_error: bool = truth(
@@ -272,30 +290,33 @@ class Duty:
 
     file: str = path("table over time: names with units, then a line for each time")
     interpolation: str = word("linear", "linear|cubic", "interpolation between two times")
-    periodic: bool = truth(False, "the last time is the first one of the next period")
-    periods: int = whole(3, "[1, 1000]", "periods to run; results are of the last one")
+    periodic: bool = truth(False, "the last time is also the first time of the next period")
+    periods: int = whole(3, "[1, 1000]", "periods to run; results are those of the last period")
     time_step: float = real(
         1.0,
         "-",
         "[0.01, 4]",
-        "time step over the time in which the faster surface moves a mesh size",
+        "time step, relative to the time in which the faster surface moves one mesh size",
     )
     target_error: float = real(
         0.0,
         "-",
         "0 or [1e-5, 0.1]",
-        "required error of h_c and h_min due to the time steps, over a transit; 0: none",
+        "required relative error of h_c and h_min due to the time steps, accumulated over one "
+        "transit of the contact; 0: none",
     )
     time: tuple[float, ...] = numbers("s", "times")
-    load: tuple[float, ...] = numbers("N", "load, of a line per length [N/m]")
-    u1: tuple[float, ...] = numbers("m/s", "velocity of body 1, with u2")
+    load: tuple[float, ...] = numbers("N", "load; for an infinite line contact per length [N/m]")
+    u1: tuple[float, ...] = numbers("m/s", "velocity of body 1, together with u2")
     u2: tuple[float, ...] = numbers("m/s", "velocity of body 2")
     mean_velocity: tuple[float, ...] = numbers("m/s", "mean velocity; negative: reversed")
     slide_to_roll: tuple[float, ...] = numbers("-", "slide-to-roll ratio")
     radius_x: tuple[float, ...] = numbers("m", "reduced radius in the plane of the motion")
     radius_y: tuple[float, ...] = numbers("m", "reduced radius across the motion")
     viscosity: tuple[float, ...] = numbers("Pa s", "viscosity at the inlet")
-    inlet_film: tuple[float, ...] = numbers("m", "oil layer that arrives, with inlet.film")
+    inlet_film: tuple[float, ...] = numbers(
+        "m", "oil layer that arrives, if the case has inlet.film"
+    )
 
 
 DUTY_LISTS = (
@@ -313,15 +334,15 @@ class Solver:
     coarsening: str = word(
         "auto",
         "auto|classical|alcouffe",
-        "transfers in time steps: bilinear, or by the conductance (Galerkin)",
+        "transfers between grids in time steps: bilinear, or conductance-weighted (Galerkin)",
     )
     symmetry: str = word(
-        "auto", "auto|full", "auto: half the domain where the problem is symmetric in Y"
+        "auto", "auto|full", "auto: solve half the domain where the problem is symmetric in Y"
     )
     cycle: str = word(
         "auto",
         "auto|W|V|F",
-        "multigrid cycle; auto: F and a lighter second one for a smooth contact, V for time steps",
+        "multigrid cycle; auto: F, then cheaper cycles, for a smooth contact, V for time steps",
     )
     accuracy: float = real(
         0.1, "-", "[1e-6, 1]", "required algebraic error as a share of the discretisation error"
@@ -329,10 +350,10 @@ class Solver:
     max_cycles: int = whole(
         30,
         "[1, 10000]",
-        "maximum number of cycles per level; three times as many at a boundary film, four times "
-        "on rollers, ten in a time step with damped changes",
+        "maximum number of cycles per level; multiplied by 3 with a boundary film, by 4 for "
+        "rollers, by 10 in a time step with damped changes",
     )
-    threads: int = whole(1, "[1, 256]", "OpenMP threads; the result does not depend on it")
+    threads: int = whole(1, "[1, 256]", "OpenMP threads; results do not depend on their number")
 
 
 @dataclass(slots=True)
@@ -357,7 +378,7 @@ class Psd:
         "formula",
     )
     film_limit: float = real(
-        0.0, "m", "[0, 1e-3]", "film below which the share of the contact is reported; 0: none"
+        0.0, "m", "[0, 1e-3]", "film below which the share of the contact area is reported; 0: none"
     )
     wavelength_convention: str = word(
         "components",
@@ -368,12 +389,10 @@ class Psd:
     viscosity_law: str = word(
         "",
         "roelands|barus|dicke|yasutomi|doolittle|table|",
-        "viscosity under pressure; default as in &lubricant",
+        "viscosity under pressure; default: the law of &lubricant",
     )
     load_balance: bool = truth(False, "rebalance the pressure so that it sustains the load")
-    positions: int = whole(
-        0, "[0, 4096]", "positions of the surface over one passage; 0: automatic"
-    )
+    positions: int = whole(0, "[0, 4096]", "positions of the surface in one passage; 0: automatic")
 
 
 @dataclass(slots=True)
@@ -388,5 +407,5 @@ class Output:
         "time between frames of P and H that a transient run keeps; 0: none",
     )
     checkpoint_interval: float = real(
-        30.0, "s", "[0, 1e6]", "wall time between states of a transient run kept on disk; 0: none"
+        30.0, "s", "[0, 1e6]", "wall time between saved states of a transient run; 0: none"
     )

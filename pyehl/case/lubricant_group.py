@@ -27,17 +27,20 @@ class Lubricant:
     viscosity_law: str = word(
         "roelands",
         "roelands|barus|dicke|yasutomi|doolittle|table",
-        "viscosity under pressure; default that of name or table",
+        "viscosity under pressure; default: the law of name or table",
     )
     roelands_z: float = real(
         0.0,
         "-",
         "[0, 1e4]",
-        "Roelands exponent, with that law 1e-3 to 2; default alpha p0/(ln eta0 + 9.67)",
+        "Roelands exponent, 1e-3 to 2 with Roelands' law; default alpha p0/(ln eta0 + 9.67)",
     )
     roelands_p0: float = real(1.96e8, "Pa", "[1e7, 1e10]", "Roelands reference pressure")
     vogel_viscosity: float = real(
-        0.0, "Pa s", "0 or [1e-9, 1]", "K of eta = K exp(B/(theta + C)), for dicke"
+        0.0,
+        "Pa s",
+        "0 or [1e-9, 1]",
+        "K of Vogel's law eta = K exp(B/(theta + C)), with Dicke's law",
     )
     vogel_b: float = real(0.0, "K", "[0, 1e4]", "B of Vogel's law")
     vogel_c: float = real(0.0, "degC", "[-100, 300]", "C of Vogel's law")
@@ -62,17 +65,19 @@ class Lubricant:
     yasutomi_b2: float = real(0.0, "-", "[-2, 0]", "b2 of Yasutomi's law")
     yasutomi_c1: float = real(0.0, "-", "0 or [1, 100]", "C1 of Yasutomi's law")
     yasutomi_c2: float = real(0.0, "K", "0 or [1, 500]", "C2 of Yasutomi's law")
-    yasutomi_viscosity: float = real(1e12, "Pa s", "[1e3, 1e15]", "viscosity of the glass")
+    yasutomi_viscosity: float = real(
+        1e12, "Pa s", "[1e3, 1e15]", "viscosity at the glass temperature"
+    )
     doolittle_viscosity: float = real(
         0.0,
         "Pa s",
         "0 or [1e-6, 1e3]",
-        "viscosity eta_R at doolittle_temperature and p = 0, of Doolittle's law; it needs tait_...",
+        "viscosity eta_R at doolittle_temperature and p = 0; Doolittle's law needs tait_...",
     )
     doolittle_temperature: float = real(0.0, "degC", "[-100, 300]", "T_R of Doolittle's law")
     doolittle_b: float = real(0.0, "-", "0 or [0.1, 50]", "B of Doolittle's law")
     doolittle_r0: float = real(
-        0.0, "-", "0 or [0.1, 0.99]", "R0 of that law: occupied over total volume at T_R"
+        0.0, "-", "0 or [0.1, 0.99]", "R0 of Doolittle's law: occupied over total volume at T_R"
     )
     doolittle_expansion: float = real(
         0.0, "1/K", "[-0.01, 0.01]", "thermal expansion epsilon of the occupied volume"
@@ -110,7 +115,7 @@ class Lubricant:
         0.0,
         "degC",
         "[-100, 500]",
-        "lowest temperature at which the constants were measured; both 0: not known",
+        "lowest temperature of the measurements behind the constants; both 0: not known",
     )
     range_temperature_max: float = real(
         0.0, "degC", "[-100, 500]", "highest temperature of these measurements"
@@ -161,16 +166,19 @@ class Lubricant:
         40.0,
         "degC",
         "[-60, 250]",
-        "temperature of the inlet; needs a viscosity by temperature",
+        "temperature of the inlet; needs a viscosity that depends on temperature",
     )
     kinematic_viscosity_40: float = real(
         0.0,
         "mm^2/s",
         "0 or [1, 1e5]",
-        "at 40 degC, as on data sheets; viscosity then follows. 0: not known",
+        "kinematic viscosity at 40 degC from the data sheet; viscosity follows. 0: not known",
     )
     kinematic_viscosity_100: float = real(
-        0.0, "mm^2/s", "0 or [0.5, 1e4]", "at 100 degC; both or none"
+        0.0,
+        "mm^2/s",
+        "0 or [0.5, 1e4]",
+        "kinematic viscosity at 100 degC; required with that at 40 degC",
     )
     density_15: float = real(870.0, "kg/m^3", "[500, 2000]", "density at 15 degC")
     thermal_expansion: float = real(
@@ -186,12 +194,12 @@ class Lubricant:
         "-(d eta/dT)/eta; default from the kinematic viscosities, 0: not known",
     )
     thermal_conductivity: float = real(
-        0.14, "W/(m K)", "[0.01, 2]", "thermal conductivity of the oil, for its heat"
+        0.14, "W/(m K)", "[0.01, 2]", "thermal conductivity of the oil, for frictional heating"
     )
     thermal_friction: str = word(
         "auto",
         "auto|always|never",
-        "friction with the temperature of the film; auto: where it matters and "
+        "frictional heating in the coefficient of friction; auto: where it matters and "
         "temperature_viscosity is known",
     )
     alpha_origin: str = word(
@@ -202,7 +210,7 @@ class Lubricant:
     inlet_law: str = word(
         "",
         "dicke|yasutomi|doolittle|table|",
-        "law of viscosity and pressure_viscosity where it is not viscosity_law; not for input",
+        "law that gave viscosity and pressure_viscosity, if not viscosity_law; not for input",
     )
     table_temperature: tuple[float, ...] = numbers("degC", "content of table; not for input")
     table_pressure: tuple[float, ...] = numbers("Pa", "content of table; not for input")

@@ -27,7 +27,7 @@ class Surface:
         0.4,
         "-",
         "[0, 10]",
-        "the same as a share of the smooth central film, extrapolated to fine grids",
+        "amplitude over the smooth central film, extrapolated to fine grids",
     )
     wavelength: float = real(0.5, "a", "[0.01, 100]", "harmonic wavelength")
     wavelength_x: float = real(0.5, "a", "[0.01, 100]", "wavelength along X; default wavelength")
@@ -78,7 +78,7 @@ class Surface:
         "distance after which a feature repeats along a line; 0: 4, or 4 times its size",
     )
     file: str = path("height map of kind 'map': .npy, text, instrument file")
-    channel: str = text("channel of an instrument file: name, or number from 1")
+    channel: str = text("channel of an instrument file: its name, or its number from 1")
     length_x: float = real(
         0.0, "m", "0 or [1e-9, 1]", "size of the map along X; 0: that of the file; fractal: 8.29e-4"
     )
@@ -91,7 +91,8 @@ class Surface:
     lateral_unit: str = word(
         "same",
         "same|m|mm|um|nm",
-        "unit of x and y in a list x y z, or of axes, that names none; same: that of the heights",
+        "unit of x and y in a list of x, y and z, or of axes, if the file names none; same: that "
+        "of the heights",
     )
     profile: str = word(
         "none",
@@ -102,12 +103,13 @@ class Surface:
     crop_x_max: float = real(0.0, "m", "[0, 1]", "end of the map along this axis; 0: not cropped")
     crop_y_min: float = real(0.0, "m", "[0, 1]", "start of the map along Y")
     crop_y_max: float = real(0.0, "m", "[0, 1]", "end of the map along this axis; 0: not cropped")
-    sign: int = whole(1, "[-1, 1]", "-1: valleys of the map are positive")
+    sign: int = whole(1, "[-1, 1]", "-1: valleys of the map are positive; 1: peaks are positive")
     outliers: float = real(
         0.0,
         "-",
         "0 or [3, 1e6]",
-        "points that deviate by so many standard deviations are removed as spikes; 0: none",
+        "points that deviate from their neighbourhood by more than this number of standard "
+        "deviations are removed as spikes; 0: none",
     )
     align_lines: str = word(
         "none",
@@ -124,13 +126,13 @@ class Surface:
     edges: str = word(
         "auto",
         "auto|mirror|window|periodic",
-        "auto: mirror for instrument files, periodic for arrays",
+        "how the map is made periodic; auto: mirror for instrument files, periodic for arrays",
     )
     track: float = real(
         0.0,
         "m",
         "[-1, 1]",
-        "position across the motion of the line that passes the centre",
+        "position across the motion of the line that passes the centre of the contact",
     )
     tile_x: float = real(
         0.0,
@@ -156,19 +158,22 @@ class Surface:
         5e-8, "m", "[0, 1e-4]", "rms height of a fractal surface, before its spectrum is cut"
     )
     ra: float = real(
-        0.0, "m", "[0, 1e-4]", "Ra in place of rms_height, of normal heights; 0: not given"
+        0.0,
+        "m",
+        "[0, 1e-4]",
+        "Ra instead of rms_height, for normally distributed heights; 0: not given",
     )
-    rq: float = real(0.0, "m", "[0, 1e-4]", "Rq in place of rms_height: the same; 0: not given")
+    rq: float = real(0.0, "m", "[0, 1e-4]", "Rq, another name of rms_height; 0: not given")
     finish: str = word(
         "none",
         "none|ground|honed|superfinished|polished",
-        "a fractal surface with typical Ra, spectrum and lay, as far as not given",
+        "a fractal surface with typical values of those of Ra, spectrum and lay not given",
     )
     lay_ratio: float = real(
         1.0,
         "-",
         "[0.01, 100]",
-        "correlation length along X over that along Y; below 1: lay across the motion",
+        "ratio of the correlation lengths along X and Y; below 1: lay across the motion",
     )
     hurst: float = real(0.8, "-", "[0, 1]", "Hurst exponent")
     rolloff_wavenumber: float = real(

@@ -11,9 +11,9 @@ from pyehl.studies.shear_fit import PARAMETERS, Fit
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.description = (
-        "Fit the Eyring stress, the limiting coefficient, or G and n of Carreau to friction "
-        "measured over the slide-to-roll ratio, or the pressure-viscosity coefficient to films "
-        "measured over speed."
+        "Fit the Eyring stress, the limiting coefficient, or stress and exponent of Carreau's law "
+        "to friction measured at several slide-to-roll ratios, or the pressure-viscosity "
+        "coefficient to films measured at several speeds."
     )
     parser.add_argument(
         "data",

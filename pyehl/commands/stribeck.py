@@ -40,9 +40,10 @@ DRAWN = ("mu_ratio", "contact_load_share", "contact_load_share_ehl")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.description = (
-        "Friction of a contact over speed, viscosity, load, temperature or slide-to-roll ratio: "
-        "the smooth contact solved, the friction of the roughness predicted, the full simulation "
-        "at some points. VALUES as of pyehl sweep: start:stop:count, start:stop:countlog or a,b,c."
+        "Friction of a contact as a function of speed, viscosity, load, temperature or "
+        "slide-to-roll ratio: the smooth contact is solved, the effect of the roughness is "
+        "predicted, and some points can be simulated in full. VALUES are given as for pyehl "
+        "sweep: start:stop:count, start:stop:countlog or a,b,c."
     )
     add_case_arguments(parser)
     for name, key in KEYS.items():
@@ -55,7 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=int,
         default=1,
         metavar="K",
-        help="mean and spread over K surfaces, of the seed of the case and those that follow",
+        help="mean and spread over K surfaces, with the seed of the case and the following ones",
     )
     parser.add_argument(
         "--measured",

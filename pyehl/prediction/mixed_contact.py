@@ -15,7 +15,7 @@ defect of the boundary film. A column of lubricant that a peak has passed has at
 of the boundary film. So its mass defect is the largest deficit on the way through the contact, on
 which peaks that slip pass it one after the other, and all films are thicker by the mean s of that:
 
-    s = < max(0, h_b - h_min - s) >,   h_min the minimum film of the column on its way.
+    s = < max(0, h_b - h_min - s) >,   h_min the minimum film of the column during its passage.
 
 Without roughness this is not the solution of the smooth contact: the boundary film makes the film
 of its inlet thinner there. The change of all films with which this contact has the load share of

@@ -5,7 +5,7 @@ Units: lengths along the surface by a, heights by a^2/R, pressures by p_h.
 
 Pressure of second order in the roughness
 -----------------------------------------
-A column of lubricant keeps its mass rho(P) (H - t) on its way through the contact. For a pressure
+A column of lubricant keeps its mass rho(P) (H - t) during its passage. For a pressure
 P1 and a loss of film t1 of first order, with c = d ln rho/dP, r = (d^2 rho/dP^2)/rho and C = K H c,
 the pressure of second order that keeps it is
 

@@ -43,7 +43,7 @@ PICTURES = {
     "deformed_roughness": "Roughness before and in the contact",
     "rough_and_smooth": "Pressure and film of the rough contact beside those of the smooth one",
     "friction": "μ_r/μ_s over the time of the run",
-    "extremes": "Maximum pressure and minimum film over the time of the run",
+    "extremes": "Maximum pressure and minimum film during the run",
     "surface_spectrum": "The surface, its spectrum, and its deformed spectrum",
     "roughness": "Roughness before and in the contact",
     "passage": "μ_r/μ_s over the passage of the surface, and contributions of octaves",

@@ -18,7 +18,7 @@ FOLDER = "stress"
 """Where a report looks for the stress of a result, in its folder."""
 PICTURES = {
     "section": "Principal shear stress on the section y = 0, largest over time",
-    "depth": "Largest principal shear stress over depth",
+    "depth": "Largest principal shear stress against depth",
 }
 
 

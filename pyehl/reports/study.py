@@ -174,7 +174,7 @@ def _pictures(
     """Give the picture of a curve as it was drawn, else the results over the first key."""
     drawn = folder / "stribeck.png"
     if drawn.is_file():
-        words = "Friction over what is varied"
+        words = "Friction against the varied quantity"
         return [page.picture(drawn.read_bytes(), f"{words}; the numbers are in the table.", words)]
     if rows.empty or not pd.api.types.is_numeric_dtype(rows[keys[0]]):
         return []

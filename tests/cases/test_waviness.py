@@ -188,7 +188,7 @@ def hardest(root: Path) -> dict[str, dict[str, float]]:
 def test_page_has_what_either_coarsening_costs(root: Path):
     text = (root / "docs" / "theory" / "coarse-grids.md").read_text(encoding="utf-8")
     auto, classical = (hardest(root)[name] for name in ("auto", "classical"))
-    cost = "{:.1f} cycles a step, classical coarsening {:.1f}"
+    cost = "{:.1f} cycles per step, classical coarsening {:.1f}"
     assert cost.format(auto["cycles"], classical["cycles"]) in text
     assert "agree within 0.1 %" in text
     assert classical["mean"] == pytest.approx(auto["mean"], rel=1e-3)

@@ -69,7 +69,7 @@ def test_tutorial(states, cases: Path):
         f"The roughness adds {percent(100.0 * (ground['mu_ratio'] - 1.0))} to the friction",
         f"minimum film over it is {1e9 * ground['h_min_rough_m']:.0f} nm",
         f"at Λ = {ground['lambda_ratio']:.2f} a real surface",
-        f"which still leaves Λ = {low * honed['lambda_ratio']:.1f}.",
+        f"and even then Λ is {low * honed['lambda_ratio']:.1f}.",
     )
 
 
@@ -165,7 +165,7 @@ def test_pressure_far_from_the_contact(states):
         "docs/theory/border.md",
         rf"so that $\vartheta = {np.degrees(angle):.1f}°$ and $C_\Phi = {second:.5f}$",
         f"The rupture adds {100.0 * (load - 1.0):.0f} % to the load far away",
-        rf"with the power $-3-\sqrt{{10}} \approx -{3.0 + np.sqrt(10.0):.1f}$",
+        rf"to the power $-3-\sqrt{{10}} \approx -{3.0 + np.sqrt(10.0):.1f}$",
     )
 
 

@@ -19,7 +19,7 @@ COLUMNS = ("campaign", "trials", "outcomes", "wrong")
 
 def lines() -> list[str]:
     """Make the table of docs/robustness.md."""
-    result = ["| what | trials | outcomes | wrong |", "|---|---|---|---|"]
+    result = ["| campaign | trials | outcomes | wrong |", "|---|---|---|---|"]
     with (HERE / "faults.csv").open(encoding="utf-8", newline="") as stream:
         result += [
             "| " + " | ".join(row[name] for name in COLUMNS) + " |"

@@ -280,7 +280,7 @@ def narrow_sides() -> list[str]:
         if row["over_scale"] == FURTHER[0] and row["status"] == "converged"
     }
     lines = [
-        "| sides over the scale | flooded border: h_c, h_min | P = 0: h_c, h_min |",
+        "| sides at, in $\\ell_y$ | flooded border: h_c, h_min | P = 0: h_c, h_min |",
         "|---|---|---|",
     ]
     for over in FURTHER[1:]:
@@ -315,7 +315,7 @@ def robustness(name: str = "contacts.csv") -> list[str]:
 def speed(name: str = "contacts.csv") -> list[str]:
     """Table of docs/speed.md."""
     lines = [
-        "| contacts | median | largest | median over that of the ball on disc | largest over it |",
+        "| contacts | median time | longest time | median, relative | longest, relative |",
         "|---|---|---|---|---|",
     ]
     for row in summary(read(name)):

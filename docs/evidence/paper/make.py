@@ -31,7 +31,7 @@ PICTURES = ("figure 2", "figure 4", "figure 7")
 COLUMNS = "tier piece quantity grid paper pyehl deviation tolerance verdict reason source".split()
 
 HEAD = (
-    "| piece | quantity | nodes a side | theirs | from | pyehl | deviation | allowed | verdict |",
+    "| part | quantity | grid | paper | source | pyehl | deviation | tolerance | verdict |",
     "|---|---|---|---|---|---|---|---|---|",
 )
 

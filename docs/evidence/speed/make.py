@@ -142,7 +142,7 @@ def steps() -> list[str]:
             [grid, PROBLEMS[one["case"]] + half, one["cycles"], *units, percent(one["error"])]
         )
     return lines(
-        "| grid | problem | cycles a step | units, one thread | two threads | error of μ_r/μ_s |",
+        "| grid | problem | cycles per step | units, one thread | two threads | error of μ_r/μ_s |",
         result,
     )
 
@@ -210,7 +210,7 @@ def skips() -> list[str]:
         result.append(
             [row["problem"], what, f"{100 * float(row['saved']):.0f} %", quantity, *numbers]
         )
-    return lines("| problem | not done | time saved | quantity | difference | allowed |", result)
+    return lines("| problem | omitted | time saved | quantity | change | allowed |", result)
 
 
 def sweep() -> list[str]:
@@ -234,7 +234,7 @@ def sweep() -> list[str]:
         for row in rows
         if row["processes"] == "2"
     ]
-    return lines("| what | units | throughput of two processes over one |", result)
+    return lines("| computation | units | throughput of two processes over one |", result)
 
 
 def main() -> None:

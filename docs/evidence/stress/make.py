@@ -146,7 +146,7 @@ def wrong(row: dict[str, str]) -> bool:
 def lines() -> list[str]:
     """Make the table of docs/robustness.md."""
     result = [
-        "| problems | cases | converged | all steps done | no solution | other ends | checked "
+        "| problems | cases | converged | all steps done | no solution | other status | checked "
         "| wrong |",
         "|---|---|---|---|---|---|---|---|",
     ]
