@@ -37,7 +37,7 @@ SUMS: dict[str, tuple[str, float, str, str]] = {
     "load_max_Z_over_F": ("  times Z/F", 1.0, ".3f", ""),
     "contact_angle_free_deg": ("contact angle without load", 1.0, ".2f", "deg"),
     "cage_speed_per_min": ("speed of the cage", 1.0, ".1f", "1/min"),
-    "centrifugal_force_N": ("centrifugal force (left out)", 1.0, ".2f", "N"),
+    "centrifugal_force_N": ("centrifugal force (omitted)", 1.0, ".2f", "N"),
     "contact_ratio": ("contact ratio", 1.0, ".3f", ""),
     "working_angle_deg": ("working pressure angle", 1.0, ".3f", "deg"),
     "normal_force_N": ("normal force", 1.0, ".1f", "N"),
@@ -86,9 +86,9 @@ def notes_of(table: pd.DataFrame, summary: Mapping[str, Any]) -> list[str]:
         result.append("steel      yields: the static limit of bearings is 4.2 GPa (ISO 76)")
     if summary.get("lambda_ratio_min", math.inf) < 1.0 and "h_min_rough_m" not in table:
         result.append(
-            "solids     minimum Lambda below 1: the surfaces touch; solid friction is not included"
+            "solids     minimum Lambda below 1: solid contact, whose friction is not included"
         )
-    return [*result, f"left out   {summary['left_out']}"]
+    return [*result, f"omitted    {summary['left_out']}"]
 
 
 def sums(table: pd.DataFrame, summary: Mapping[str, Any]) -> dict[str, str]:

@@ -304,7 +304,7 @@ def test_case_files_by_formulas(root: Path, tmp_path: Path, name: str, capfd):
     folder, (command, group) = tmp_path / "out", FILES[name]
     assert cli.main([command, str(root / "cases" / f"{name}.nml"), "-o", str(folder)]) == 0
     reported = capfd.readouterr().out
-    for word in ("h_c [nm]", "Lambda", "left out", str(folder / "contacts.csv")):
+    for word in ("h_c [nm]", "Lambda", "omitted", str(folder / "contacts.csv")):
         assert word in reported
     assert (folder / "contacts.png").stat().st_size > 10_000
     # the resolved group reads back as the same machine
@@ -315,7 +315,7 @@ def test_case_files_by_formulas(root: Path, tmp_path: Path, name: str, capfd):
     assert tables[0] == tables[1]
     assert cli.main(["report", str(folder)]) == 0
     shown = (folder / "report.html").read_text()
-    for word in ("minimum Lambda", "left out", f"&amp;{group}", "data:image/png"):
+    for word in ("minimum Lambda", "omitted", f"&amp;{group}", "data:image/png"):
         assert word in shown
     # the page is ours, and goes with the result
     assert (
