@@ -196,7 +196,7 @@ contains
       if (.not. status%failed()) then
          reason = plan%reason
          estimate = plan%estimate
-         if (plan%counts) then
+         if (plan%active) then
             counts = 1
             call heat_film(plan%film, grid_t(nx=nx, ny=ny, x0=x0, y0=y0, hx=hx, hy=hy, mirror=mirror /= 0, &
                                              periodic=input%contact%is_line()), &

@@ -72,7 +72,7 @@ contains
             if (why /= "") then
                solver%run%fallback_reason = why
             else
-               call solver%run%predicted%take(solver%run%plan%surfaces, solver%run%plan%finest, pressure)
+               call solver%run%predicted%set_pressure(solver%run%plan%surfaces, solver%run%plan%finest, pressure)
             end if
          end associate
       end if

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Table of solvers, of which Python holds the indices, and the reply of routines for Python
+!> Table of solvers, which Python identifies by handles, and replies of routines to Python
 module ehl_handles
    use, intrinsic :: iso_c_binding, only: c_int
    use ehl_case, only: case_t

@@ -43,7 +43,7 @@ module ehl_case
       !> Angle from the direction of motion to the plane of radius_x, counter-clockwise
       real(dp) :: angle = 0.0_dp
       real(dp) :: slide_to_roll = 0.02_dp
-      !> Which body has &surface; the other one has &second_surface
+      !> Body with &surface; the other one has &second_surface
       integer :: rough_surface = 1
       !> Body 1, by default bearing steel
       real(dp) :: thermal_conductivity = 46.0_dp, thermal_diffusivity = 1.25e-5_dp
@@ -84,7 +84,7 @@ module ehl_case
       type(isotherm_t), allocatable :: isotherms(:)
       real(dp) :: viscosity = 0.04_dp
       real(dp) :: pressure_viscosity = 2.2e-8_dp
-      !> Whether pressure_viscosity is given, estimated from a data sheet, or the default beside a given viscosity
+      !> Whether pressure_viscosity is given, estimated from a data sheet, or the default with a given viscosity
       character(len=word_length) :: alpha_origin = "given"
       character(len=word_length) :: viscosity_law = "roelands"
       !> Law of viscosity and pressure-viscosity coefficient at the inlet if viscosity_law does not give them
@@ -245,7 +245,7 @@ module ehl_case
       integer :: positions = 0
    end type psd_case_t
 
-   !> &output: what is written
+   !> &output: fields, frames and checkpoints
    type :: output_case_t
       logical :: fields = .true.
       real(dp) :: frame_interval = 0.0_dp

@@ -26,7 +26,7 @@ contains
       type(status_t), intent(inout) :: status
       real(dp), allocatable :: numbers(:)
       character(len=:), allocatable :: key
-      real(dp) :: least
+      real(dp) :: minimum
       integer :: k, n
 
       if (status%failed()) return
@@ -63,10 +63,10 @@ contains
             call refuse("u1", "duty.u1 beside duty.mean_velocity or duty.slide_to_roll", "the speeds one way")
          end if
          numbers = d%list("load")
-         least = min_load*input%contact%size_of_load()
+         minimum = min_load*input%contact%size_of_load()
          if (size(numbers) > 0) then
-            if (minval(numbers) < least) call refuse("load", "a load of "//to_text(minval(numbers)), &
-               "at least "//short(least)//", 0.001 of that of the case: below it the contact opens")
+            if (minval(numbers) < minimum) call refuse("load", "a load of "//to_text(minval(numbers)), &
+               "at least "//short(minimum)//", 0.001 of that of the case: below it the contact opens")
          end if
          call positive("radius_x")
          call positive("radius_y")

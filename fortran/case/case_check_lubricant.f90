@@ -51,10 +51,10 @@ contains
 
    contains
 
-      subroutine need(law, there, constants)
+      subroutine need(law, given, constants)
          character(len=*), intent(in) :: law, constants
-         logical, intent(in) :: there
-         if (there .or. .not. uses_law(input%lubricant, law)) return
+         logical, intent(in) :: given
+         if (given .or. .not. uses_law(input%lubricant, law)) return
          call source%refuse("lubricant.viscosity_law", "the law '"//law//"' without its constants", constants, status)
       end subroutine need
 
@@ -126,10 +126,10 @@ contains
    contains
 
       !> Refuse the value of a key on a condition
-      subroutine refuse(so, key, what, expected)
-         logical, intent(in) :: so
+      subroutine refuse(condition, key, what, expected)
+         logical, intent(in) :: condition
          character(len=*), intent(in) :: key, what, expected
-         if (so) call source%refuse(key, key//": "//what, expected, status)
+         if (condition) call source%refuse(key, key//": "//what, expected, status)
       end subroutine refuse
 
       !> Heating needs a velocity in m/s and the temperature dependence of the viscosity

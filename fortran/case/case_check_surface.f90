@@ -2,7 +2,7 @@
 !> Checks of the surfaces of a complete case
 module ehl_case_check_surface
    use ehl_case, only: case_t, contact_case_t, is_feature, surface_case_t
-   use ehl_case_defaults, only: latest_start, waits
+   use ehl_case_defaults, only: latest_start, must_wait
    use ehl_case_source, only: case_source_t
    use ehl_files, only: file_exists, is_file
    use ehl_kinds, only: dp
@@ -64,17 +64,17 @@ contains
       ! the heights of a tile made by pyehl come from Python or from the checkpoint folder
       if (s%kind == "map" .and. trim(s%file) /= "" .and. .not. s%tile_x > 0.0_dp) call refuse(.not. is_file(trim(s%file)), &
          "file", "there is no file "//trim(s%file), "a height map: .npy, text or a file of an instrument")
-      if (status%failed() .or. .not. waits(s, other)) return
+      if (status%failed() .or. .not. must_wait(s, other)) return
       call refuse(s%x_start > latest_start(s, other), "x_start", "the "//trim(s%kind)//" would come before the roughness of "// &
                   "the other surface fills the contact", "at most "//short(latest_start(s, other)))
 
    contains
 
       !> Refuse the value of a key of the group on a condition
-      subroutine refuse(so, key, what, expected)
-         logical, intent(in) :: so
+      subroutine refuse(condition, key, what, expected)
+         logical, intent(in) :: condition
          character(len=*), intent(in) :: key, what, expected
-         if (so) call source%refuse(group//"."//key, group//"."//key//": "//what, expected, status)
+         if (condition) call source%refuse(group//"."//key, group//"."//key//": "//what, expected, status)
       end subroutine refuse
 
       !> Refuse two keys for the same size

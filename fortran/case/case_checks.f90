@@ -180,7 +180,7 @@ contains
       type(operating_t), intent(in) :: point
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: key
-      real(dp) :: least
+      real(dp) :: minimum
 
       key = merge("contact.load  ", "contact.moes_m", input%contact%si)
       if (input%contact%is_line()) key = merge("contact.load_per_length", "contact.moes_m_line    ", input%contact%si)
@@ -192,10 +192,10 @@ contains
          end if
          return
       end if
-      least = min_strain*input%contact%reduced_modulus
-      if (scales%pressure < least .or. scales%pressure > 2.0e10_dp) then
+      minimum = min_strain*input%contact%reduced_modulus
+      if (scales%pressure < minimum .or. scales%pressure > 2.0e10_dp) then
          call source%refuse(trim(key), "the Hertz pressure is "//short(scales%pressure)//" Pa", "values in SI units with one "// &
-                            "between "//short(least)//" Pa (4e-7 of reduced_modulus) and 2e10 Pa", status)
+                            "between "//short(minimum)//" Pa (4e-7 of reduced_modulus) and 2e10 Pa", status)
       else if (scales%length > input%contact%radius_x) then
          call source%refuse(trim(key), "the Hertz radius "//short(scales%length)//" m exceeds that of the ball", &
                             "values in SI units with a contact much smaller than the ball", status)

@@ -20,7 +20,7 @@ module ehl_case_defaults
    private
    public :: complete, inlet, is_starved, latest_start, line_keys, make_isotherms, moes_keys, point_keys, si_keys, &
              sliding, velocity_ratio, &
-             waits
+             must_wait
 
    character(len=16), parameter :: moes_keys(5) = [character(len=16) :: "moes_m", "moes_l", "radius_ratio", "moes_m_line", &
                                                    "moes_l_line"], &
@@ -128,7 +128,7 @@ contains
          if (why /= "") call source%refuse("lubricant.table_viscosity", "a table of viscosities "//why, &
                                            "what 'pyehl check --resolved' writes of a table", status)
          if (status%failed()) return
-         if (allocated(l%isotherms)) call take_range(source, l)
+         if (allocated(l%isotherms)) call set_range(source, l)
          if (own_law(l) /= "" .and. .not. (source%given("lubricant.viscosity") .and. source%given("lubricant.pressure_viscosity") &
                                            .and. source%given("lubricant.temperature_viscosity"))) then
             call inlet(l, viscosity, alpha, slope, status)
@@ -177,7 +177,7 @@ contains
    end subroutine inlet
 
    !> Set the range of the measurements from a table if it is not given
-   subroutine take_range(source, l)
+   subroutine set_range(source, l)
       type(case_source_t), intent(in) :: source
       type(lubricant_case_t), intent(inout) :: l
       integer :: k
@@ -193,7 +193,7 @@ contains
            l%range_pressure_max = minval([(isotherms(k)%p(size(isotherms(k)%p)), k=1, size(isotherms))])
          end if
       end associate
-   end subroutine take_range
+   end subroutine set_range
 
    !> Split the table of measured viscosities into isotherms; `why`: the reason of a failure
    subroutine make_isotherms(l, why)
@@ -286,15 +286,15 @@ contains
       type(surface_case_t), intent(inout) :: s
       type(surface_case_t), intent(in) :: other
 
-      if (waits(s, other)) s%x_start = min(s%x_start, latest_start(s, other) - s%velocity_ratio*transit)
+      if (must_wait(s, other)) s%x_start = min(s%x_start, latest_start(s, other) - s%velocity_ratio*transit)
    end subroutine delay_start
 
    !> Whether `s` is a moving feature, and the other surface has moving roughness
-   pure logical function waits(s, other)
+   pure logical function must_wait(s, other)
       type(surface_case_t), intent(in) :: s, other
-      waits = is_feature(s%kind) .and. .not. is_feature(other%kind) .and. .not. has_no_height(other) .and. &
+      must_wait = is_feature(s%kind) .and. .not. is_feature(other%kind) .and. .not. has_no_height(other) .and. &
               s%velocity_ratio > 0.0_dp .and. other%velocity_ratio > 0.0_dp
-   end function waits
+   end function must_wait
 
    !> Latest start of a feature: it comes near the contact when the front of the other surface leaves it
    pure real(dp) function latest_start(s, other)

@@ -262,9 +262,9 @@ contains
       file => v%file; interpolation => v%interpolation; periodic => v%periodic; periods => v%periods
       time_step => v%time_step; target_error => v%target_error
       ! largest number of values in a text of this length
-      associate (most => len(text)/2)
-         allocate (time(most), load(most), u1(most), u2(most), mean_velocity(most), slide_to_roll(most), radius_x(most), &
-                   radius_y(most), viscosity(most), inlet_film(most), source=huge(1.0_dp))
+      associate (n => len(text)/2)
+         allocate (time(n), load(n), u1(n), u2(n), mean_velocity(n), slide_to_roll(n), radius_x(n), &
+                   radius_y(n), viscosity(n), inlet_film(n), source=huge(1.0_dp))
       end associate
       if (len(text) == 0) then
          write (lines, nml=duty, iostat=stat, delim="apostrophe")

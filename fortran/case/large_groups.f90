@@ -66,8 +66,8 @@ contains
       temperature_viscosity => v%temperature_viscosity; thermal_conductivity => v%thermal_conductivity
       thermal_friction => v%thermal_friction
       ! largest number of values in a text of this length
-      associate (most => len(text)/2)
-         allocate (table_temperature(most), table_pressure(most), table_viscosity(most), source=huge(1.0_dp))
+      associate (n => len(text)/2)
+         allocate (table_temperature(n), table_pressure(n), table_viscosity(n), source=huge(1.0_dp))
       end associate
       if (len(text) == 0) then
          write (lines, nml=lubricant, iostat=stat, delim="apostrophe")

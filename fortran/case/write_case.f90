@@ -38,7 +38,7 @@ contains
          if (group_names(n) == "duty" .and. .not. input%duty%active()) cycle
          text = text//"&"//trim(group_names(n))//newline
          do k = 1, size(keys)
-            if (.not. holds(trim(group_names(n))//"."//trim(keys(k)), input)) cycle
+            if (.not. applies(trim(group_names(n))//"."//trim(keys(k)), input)) cycle
             line = "   "//trim(keys(k))//" = "//trim(values(k))
             if (values(k) == "") then
                call list_text(keys(k), input, line)
@@ -88,50 +88,50 @@ contains
    end subroutine list_text
 
    !> Whether a key applies to the case
-   pure logical function holds(name, input)
+   pure logical function applies(name, input)
       character(len=*), intent(in) :: name
       type(case_t), intent(in) :: input
 
-      holds = .true.
+      applies = .true.
       associate (c => input%contact)
          select case (name)
          case ("contact.moes_m", "contact.moes_l", "contact.radius_ratio")
-            holds = .not. (c%si .or. c%is_cylinder())
+            applies = .not. (c%si .or. c%is_cylinder())
          case ("contact.moes_m_line", "contact.moes_l_line")
-            holds = c%is_line() .and. .not. c%si
+            applies = c%is_line() .and. .not. c%si
          case ("contact.load")
-            holds = c%si .and. .not. c%is_line()
+            applies = c%si .and. .not. c%is_line()
          case ("contact.load_per_length")
-            holds = c%si .and. c%is_line()
+            applies = c%si .and. c%is_line()
          case ("contact.shape")
-            holds = c%is_cylinder()
+            applies = c%is_cylinder()
          case ("contact.angle")
-            holds = .not. c%is_cylinder()
+            applies = .not. c%is_cylinder()
          case ("grid.points_y")
-            holds = .not. c%is_line()
+            applies = .not. c%is_line()
          case ("grid.y_extent")
-            holds = .not. c%is_cylinder()
+            applies = .not. c%is_cylinder()
          case ("contact.length", "contact.profile", "contact.profile_2", "contact.misalignment")
-            holds = c%is_roller()
+            applies = c%is_roller()
          case ("contact.crown_radius", "contact.crown_radius_2")
-            holds = c%is_roller() .and. of_body() == "crown"
+            applies = c%is_roller() .and. of_body() == "crown"
          case ("contact.log_amplitude", "contact.log_amplitude_2")
-            holds = c%is_roller() .and. of_body() == "logarithmic"
+            applies = c%is_roller() .and. of_body() == "logarithmic"
          case ("contact.chamfer_length", "contact.chamfer_drop", "contact.chamfer_length_2", "contact.chamfer_drop_2")
-            holds = c%is_roller() .and. of_body() == "chamfer"
+            applies = c%is_roller() .and. of_body() == "chamfer"
          case ("contact.profile_file", "contact.profile_y", "contact.profile_drop", "contact.profile_file_2", &
                "contact.profile_y_2", "contact.profile_drop_2")
-            holds = c%is_roller() .and. of_body() == "file"
+            applies = c%is_roller() .and. of_body() == "file"
          case ("contact.mean_velocity", "contact.reduced_modulus")
-            holds = c%si
+            applies = c%si
          case ("contact.radius")
-            holds = c%si .and. c%round
+            applies = c%si .and. c%round
          case ("contact.radius_x", "contact.radius_y")
-            holds = c%si .and. .not. c%round
+            applies = c%si .and. .not. c%round
          case ("surface.amplitude", "surface.amplitude_over_film")
-            holds = input%surface%amplitude_given .eqv. index(name, "film") == 0
+            applies = input%surface%amplitude_given .eqv. index(name, "film") == 0
          case ("second_surface.amplitude", "second_surface.amplitude_over_film")
-            holds = input%second_surface%amplitude_given .eqv. index(name, "film") == 0
+            applies = input%second_surface%amplitude_given .eqv. index(name, "film") == 0
          case default
             continue
          end select
@@ -144,7 +144,7 @@ contains
          character(len=len(input%contact%profiles%kind)) :: kind
          kind = input%contact%profiles(merge(2, 1, index(name, "_2") > 0))%kind
       end function of_body
-   end function holds
+   end function applies
 
    !> All keys with default and range, one per line, separated by tabs
    subroutine defaults_text(text)

@@ -17,7 +17,7 @@ module ehl_plan
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_plan_duty, only: plan_duty
    use ehl_plan_friction, only: sliding_t
-   use ehl_plan_heat, only: heat_plan_t, may_touch, plan_contact, plan_heat
+   use ehl_plan_heat, only: heat_plan_t, may_have_solid_contact, plan_contact, plan_heat
    use ehl_plan_surface, only: check_resolved, make_surfaces
    use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, status_t
@@ -53,7 +53,7 @@ module ehl_plan
       !> Central film with the given oil layer, by formula
       real(dp) :: film_starved = 0.0_dp
       !> Whether the smooth contact may have solid contact at the boundary film
-      logical :: touches = .false.
+      logical :: solid_contact = .false.
       !> Data for absolute friction
       type(sliding_t) :: sliding
       !> Data for frictional heating
@@ -140,7 +140,7 @@ contains
       plan%starved = is_starved(input)
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)
       film = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
-      plan%touches = may_touch(plan%lubricant, film)
+      plan%solid_contact = may_have_solid_contact(plan%lubricant, film)
       if (plan%lubricant%boundary_film > 0.0_dp) plan%inlet = inlet_t(film, plan%lubricant%boundary_film/rho, &
                                                                          plan%lubricant%boundary_stress)
       plan%film_flooded = film
@@ -176,8 +176,9 @@ contains
       call pick_cycle(input, plan)
       call pick_grids(input, plan, status)
       ! with shear thinning cycles that leave spikes to relaxation diverge on coarse grids (kappa = 12, L = 28, Eyring)
-      if (plan%lubricant%shear%thins_flow()) plan%spares_from = plan%levels
-      if (plan%touches .or. plan%contact%reach(2) <= oblique*plan%contact%reach(1)) plan%spares_from = huge(plan%spares_from)
+      if (plan%lubricant%shear%thins_flow()) plan%spare_spikes_from = plan%levels
+      if (plan%solid_contact .or. plan%contact%reach(2) <= oblique*plan%contact%reach(1)) &
+         plan%spare_spikes_from = huge(plan%spare_spikes_from)
       if (status%failed() .or. .not. plan%surfaces%rough()) return
       call plan%surfaces%use_threads(plan%threads)
       call plan%surfaces%find_period(merge(plan%max_periods, automatic_periods, plan%max_periods > 0))

@@ -25,9 +25,9 @@ contains
       if (row) plan%cycle%pre = 1
       plan%cycle%spare_spikes = has_sharp_spike(plan)
       plan%second_cycle = plan%cycle
-      if (plan%cycle%full .and. input%solver%cycle == "auto" .and. .not. (plan%surfaces%rough() .or. plan%touches)) then
-         ! The first cycle leaves little smooth error, so that a V cycle is sufficient. Not before rough contacts, whose friction
-         ! ratio contains the error of the smooth friction.
+      if (plan%cycle%full .and. input%solver%cycle == "auto" .and. .not. (plan%surfaces%rough() .or. plan%solid_contact)) then
+         ! The first cycle leaves little smooth error, so that a V cycle is sufficient. Rough contacts keep full cycles, since
+         ! the friction ratio contains the error of the smooth friction.
          plan%second_cycle = cycle_of("V")
          plan%second_cycle%spare_spikes = plan%cycle%spare_spikes
       end if
@@ -52,7 +52,7 @@ contains
 
       has_sharp_spike = plan%contact%reach(2) > oblique*plan%contact%reach(1) .and. plan%point%moes_l > high_spike .and. &
                         plan%point%alpha_bar > blunt_spike(plan%point%moes_l) .and. &
-                        .not. (plan%surfaces%rough() .or. plan%touches)
+                        .not. (plan%surfaces%rough() .or. plan%solid_contact)
    end function has_sharp_spike
 
    !> Options of the cycle with a letter

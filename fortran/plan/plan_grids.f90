@@ -71,12 +71,12 @@ contains
       do level = 1, plan%levels
          if (level > 1) grid = grid%finer()
          if (plan%start == 0 .and. grid%nx >= min_start_points .and. &
-             (plan%touches .or. has_solution(plan%contact, plan%point, grid))) plan%start = level
+             (plan%solid_contact .or. has_solution(plan%contact, plan%point, grid))) plan%start = level
       end do
       if (plan%start == 0) plan%start = plan%levels
       plan%finest = grid
       associate (errors => relative_errors(plan%contact, plan%point, grid%hx))
-         plan%may_restart = errors(1) <= resolved_error .or. plan%touches .or. &
+         plan%may_restart = errors(1) <= resolved_error .or. plan%solid_contact .or. &
                             plan%contact%reach(2) > wide*plan%contact%reach(1)
       end associate
    end procedure pick_grids

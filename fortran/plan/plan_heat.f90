@@ -18,18 +18,18 @@ module ehl_plan_heat
    use ehl_wall_heat, only: heat_source, speed_of_rest, wall_strength
    implicit none (type, external)
    private
-   public :: heat_plan_t, may_touch, plan_contact, plan_heat, plan_given
+   public :: heat_plan_t, may_have_solid_contact, plan_contact, plan_heat, plan_given
 
    !> Relative change of the stress at the Hertz pressure below which frictional heating is neglected
    real(dp), parameter :: min_change = 1.0e-3_dp
 
    !> Boundary film over the central film by formula above which a smooth contact may have solid contact
-   real(dp), parameter :: contact_from = 0.5_dp
+   real(dp), parameter :: min_boundary_film = 0.5_dp
 
    !> Frictional heating of a contact
    type :: heat_plan_t
       !> Whether it is computed
-      logical :: counts = .false.
+      logical :: active = .false.
       type(film_heat_t) :: film
       !> Temperature rise up to which the viscosity was measured [K]; huge: not known
       real(dp) :: measured_rise = huge(1.0_dp)
@@ -81,14 +81,14 @@ contains
             return
          end if
          max_stress = stress
-         if (may_touch(lubricant, film)) max_stress = max(stress, lubricant%boundary_stress*lubricant%shear%scale)
+         if (may_have_solid_contact(lubricant, film)) max_stress = max(stress, lubricant%boundary_stress*lubricant%shear%scale)
          rise = flash_temperature(max_stress*heat%speed, source(1)*scales%length, source(2), sliding%speeds(), &
                                   sliding%conductivity, sliding%diffusivity) &
                 + max_stress*heat%speed*film*scales%film/(12.0_dp*heat%conductivity)
          heated = stress_at(rise)
-         plan%counts = l%thermal_friction == "always" .or. .not. stress - heated < min_change*stress
+         plan%active = l%thermal_friction == "always" .or. .not. stress - heated < min_change*stress
          plan%estimate = rise
-         plan%reason = merge(friction_with_heat, friction_small, plan%counts)
+         plan%reason = merge(friction_with_heat, friction_small, plan%active)
       end associate
 
    contains
@@ -114,11 +114,11 @@ contains
    end function plan_heat
 
    !> Whether the smooth contact may have solid contact, from its central film by formula [a^2/R]
-   pure logical function may_touch(lubricant, film)
+   pure logical function may_have_solid_contact(lubricant, film)
       type(lubricant_t), intent(in) :: lubricant
       real(dp), intent(in) :: film
-      may_touch = lubricant%boundary_film > contact_from*film
-   end function may_touch
+      may_have_solid_contact = lubricant%boundary_film > min_boundary_film*film
+   end function may_have_solid_contact
 
    !> Heating and lubricant of a case whose pressure and film are known
    subroutine plan_given(input, plan, lubricant, status)

@@ -27,8 +27,8 @@ module ehl_plan_need
    real(dp), parameter :: coarser_bytes = 0.25_dp, coarser_seconds = 0.125_dp
    !> Seconds per stored node of a smooth contact and of a time step or cycle, on one thread of a processor of 2020
    real(dp), parameter :: smooth_seconds = 8.0e-7_dp, step_seconds = 3.0e-7_dp
-   !> Seconds per cube of the number of unknowns on the coarsest grid, for about ten direct solutions in a smooth contact; on a wide
-   !> grid half of the time (0.5 of 1.1 s at kappa = 10 on 257 nodes)
+   !> Seconds per cube of the number of unknowns on the coarsest grid, for about ten direct solutions in a smooth contact; they take
+   !> half of the time on a wide grid (0.5 of 1.1 s at kappa = 10 on 257 nodes)
    real(dp), parameter :: direct_seconds = 1.0e-9_dp
    !> Cycles of a stationary rough contact
    real(dp), parameter :: stationary_cycles = 20.0_dp
@@ -54,12 +54,12 @@ contains
    end subroutine check_need
 
    !> Smallest and largest number of frames
-   subroutine frames_kept(plan, least, most)
+   subroutine frames_kept(plan, frames_min, frames_max)
       type(plan_t), intent(in) :: plan
-      real(dp), intent(out) :: least, most
+      real(dp), intent(out) :: frames_min, frames_max
 
-      least = frames(plan, steps(plan))
-      most = frames(plan, max_steps(plan))
+      frames_min = frames(plan, steps(plan))
+      frames_max = frames(plan, max_steps(plan))
    end subroutine frames_kept
 
    !> Smallest number of time steps
@@ -89,10 +89,10 @@ contains
    pure real(dp) function max_periods(plan)
       type(plan_t), intent(in) :: plan
 
-      associate (most => merge(plan%max_periods, automatic_periods, plan%max_periods > 0), repeats => plan%surfaces%repeats)
-         max_periods = most
-         ! the common period of several surfaces may be as long as that
-         if (repeats > 1) max_periods = max(real(most, dp)/repeats, periods_compared(repeats))
+      associate (limit => merge(plan%max_periods, automatic_periods, plan%max_periods > 0), repeats => plan%surfaces%repeats)
+         max_periods = limit
+         ! the common period of several surfaces may contain all of these periods
+         if (repeats > 1) max_periods = max(real(limit, dp)/repeats, periods_compared(repeats))
       end associate
       if (plan%surfaces%pass_once()) max_periods = 1.0_dp
    end function max_periods
@@ -120,7 +120,7 @@ contains
       bytes = smooth_bytes
       if (plan%has_next_phase()) bytes = bytes + rough_bytes
       if (plan%has_steps()) bytes = bytes + alcouffe_bytes
-      if (plan%heat%counts) bytes = bytes + heat_bytes
+      if (plan%heat%active) bytes = bytes + heat_bytes
       if (plan%lubricant%shear%thins_flow()) bytes = bytes + thinning_bytes
       bytes = bytes*nodes(plan) + line_bytes*plan%finest%nx*threads
       bytes = bytes + plan%surfaces%bytes_on(plan%finest)

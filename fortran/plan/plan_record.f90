@@ -22,7 +22,7 @@ contains
    function plan_record(plan) result(record)
       type(plan_t), intent(in) :: plan
       type(record_t) :: record
-      real(dp) :: least, most
+      real(dp) :: frames_min, frames_max
 
       associate (point => plan%point, scales => plan%scales, contact => plan%contact, s => plan%sliding, l => plan%lubricant)
          call record%set("moes_m moes_l alpha_bar speed_parameter length film pressure", &
@@ -84,8 +84,8 @@ contains
       call record%set("step_post", plan%step_cycle%post)
       call record%set("alcouffe", plan%step_cycle%coarsening == coarsening_alcouffe)
       call record%set("coarsening_may_change", plan%coarsening_may_change)
-      call frames_kept(plan, least, most)
-      call record%set("bytes seconds frames_min frames_max", [bytes_needed(plan, 1), seconds_needed(plan), least, most])
+      call frames_kept(plan, frames_min, frames_max)
+      call record%set("bytes seconds frames_min frames_max", [bytes_needed(plan, 1), seconds_needed(plan), frames_min, frames_max])
    end function plan_record
 
    !> Record of the rough surfaces, heights in a^2/R, lengths in a

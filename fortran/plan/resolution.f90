@@ -14,8 +14,8 @@ module ehl_resolution
 
    !> Largest half of the a-priori error of H_min at which the discrete equations have a solution (docs/robustness.md)
    real(dp), parameter :: max_unresolved = 0.6_dp
-   !> Aspect ratio Y/X below which cells with hy = hx/4 can be too long at the ends, and a side at an eighth of the length of the
-   !> domain is far enough
+   !> Aspect ratio Y/X below which hy = hx/4 can be too coarse at the ends, and a y_extent of an eighth of the length of the domain
+   !> is sufficient
    real(dp), parameter :: max_narrow_ratio = 0.105_dp
 
 contains
@@ -58,8 +58,8 @@ contains
       points = grid%nx
    end function points_for_inlet
 
-   !> Probable reason of a missing solution: a coarse grid; or the ends of a narrow contact, for which half of hy in a domain a
-   !> quarter as wide may be sufficient (docs/evidence/errors_ellipses); reason_none if neither applies
+   !> Probable reason of a missing solution: a coarse grid; or the ends of a narrow contact, for which half of hy, in a domain a
+   !> quarter as wide, may be sufficient (docs/evidence/errors_ellipses); reason_none if neither applies
    pure integer function why_no_solution(contact, point, finest) result(reason)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point

@@ -26,12 +26,12 @@ contains
       input%time%estimate_error = .false.
       allocate (self%coarse)
       associate (run => self%run, coarse => self%coarse)
-         ! the same roughness, not the same fraction of another film
+         ! the same surfaces, since amplitude_over_film would refer to the film of the coarser grid
          call run%plan%surfaces%transfer(surfaces)
          call make_plan(input, surfaces, coarse%plan, status)
          ! a failed plan may not have taken the surfaces
          call run%plan%surfaces%reclaim(surfaces)
-         coarse%plan%heat%counts = .false.
+         coarse%plan%heat%active = .false.
          call coarse%begin(status)
          coarse%checkpoint = self%coarse_checkpoint
          if (allocated(run%state_text)) coarse%state_text = run%state_text

@@ -50,10 +50,10 @@ contains
       friction = merge(run%smooth%results(run%level())%m%friction, not_known, good .and. known)
       ratio = merge(not_known, 1.0_dp, rough)
       heat_ratio = not_known
-      if (run%plan%heat%counts .and. .not. rough) heat_ratio = run%smooth_heat%ratio()
+      if (run%plan%heat%active .and. .not. rough) heat_ratio = run%smooth_heat%ratio()
       if (run%is_rough() .and. converged .and. known .and. .not. run%plan%duty%active) then
          ratio = run%mu_ratio()
-         if (run%plan%heat%counts) heat_ratio = run%heat_ratio()
+         if (run%plan%heat%active) heat_ratio = run%heat_ratio()
       end if
       associate (plan => run%plan, s => run%plan%sliding, shear => run%plan%lubricant%shear)
          speed = abs(s%slide_to_roll)*s%mean_velocity
@@ -82,12 +82,12 @@ contains
          end if
          found%mu_isothermal(1) = ratio*found%mu_isothermal(2)
          found%mu = found%mu_isothermal
-         if (plan%heat%counts) then
+         if (plan%heat%active) then
             found%mu = found%mu*[heat_ratio, run%smooth_heat%ratio()]
             if (ieee_is_finite(found%mu_isothermal(2)) .and. .not. ieee_is_finite(found%mu(2))) then
                found%reason = friction_not_converged
             end if
-            ! mu_r/mu_s is isothermal, and the smooth contact has another temperature: mu_smooth is not mu divided by mu_r/mu_s
+            ! mu_r/mu_s is isothermal, and both contacts have different temperatures: mu is not mu_r/mu_s times mu_smooth
             if (rough .and. found%reason == friction_with_heat .and. ieee_is_finite(found%mu(1))) then
                found%mu(2) = not_known
                found%reason = friction_of_rough
@@ -97,7 +97,7 @@ contains
          source = heat_source(plan%contact)
          found%flash = flash_temperature(found%mu(1)*s%load*speed/plan%contact%flash_area(plan%scales%length), &
                                          source(1)*plan%scales%length, source(2), s%speeds(), s%conductivity, s%diffusivity)
-         if (.not. plan%heat%counts) return
+         if (.not. plan%heat%active) return
          found%rises = run%smooth_heat%max_rise
          if (rough) found%rises = run%rough_heat%max_rise
          if (.not. ieee_is_finite(found%rises(1))) return

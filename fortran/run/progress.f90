@@ -75,26 +75,26 @@ contains
    pure subroutine work_of(run, done, earliest, latest)
       class(contact_run_t), intent(in) :: run
       real(dp), intent(out) :: done, earliest, latest
-      real(dp) :: least, most
+      real(dp) :: min_work, max_work
 
       done = 0.0_dp
-      least = 0.5_dp*run%step_cost*run%other%earliest
-      most = least
+      min_work = 0.5_dp*run%step_cost*run%other%earliest
+      max_work = min_work
       if (run%phase == phase_steps .and. run%plan%duty%active) then
          ! in proportion to time, since the steps depend on the duty
          done = run%transient%step
          associate (t => run%transient, duty => run%plan%duty)
-            least = done*max(1.0_dp, (duty%end_time() - duty%begin())/max(t%time - duty%begin(), tiny(1.0_dp)))
+            min_work = done*max(1.0_dp, (duty%end_time() - duty%begin())/max(t%time - duty%begin(), tiny(1.0_dp)))
          end associate
-         most = least
+         max_work = min_work
       else if (run%phase == phase_steps) then
          done = run%other%done + run%step_cost*run%transient%step
-         least = run%other%done + run%step_cost*end_after(run, min_periods(run%plan, run%transient%mean))
-         most = least
-         if (.not. run%is_coarser) most = run%other%done + end_after(run, real(max_periods(run%plan), dp))
+         min_work = run%other%done + run%step_cost*end_after(run, min_periods(run%plan, run%transient%mean))
+         max_work = min_work
+         if (.not. run%is_coarser) max_work = run%other%done + end_after(run, real(max_periods(run%plan), dp))
       end if
-      earliest = run%other%earliest + least
-      latest = run%other%latest + most
+      earliest = run%other%earliest + min_work
+      latest = run%other%latest + max_work
    end subroutine work_of
 
    !> Step of a transient run after a number of periods, or its last step if time.steps is set

@@ -219,7 +219,7 @@ contains
          call record%set("shear_law", trim(s%law))
          call record%set("slide_to_roll mu mu_smooth mu_isothermal mu_smooth_isothermal", &
                          [s%slide_to_roll, f%mu, f%mu_isothermal])
-         if (plan%heat%counts) call record%set("temperature_rise_max_K temperature_rise_wall_1_max_K "// &
+         if (plan%heat%active) call record%set("temperature_rise_max_K temperature_rise_wall_1_max_K "// &
                                                "temperature_rise_wall_2_max_K", f%rises)
          call record%set("shear_rate_mean_per_s shear_stress_max_Pa flash_temperature_K", &
                          [f%shear_rate, f%shear_stress, f%flash])

@@ -49,7 +49,7 @@ contains
          values = values*(s%load*s%mean_velocity)*history%column("load")*abs(history%column("slide"))
       end associate
       call history%add_column("power_error_W", values)
-      ! proportional to the power
+      ! the flash temperature is proportional to the power
       allocate (power, source=history%column("power_W"))
       where (abs(power) > 0.0_dp) values = values/power
       call history%add_column("flash_error_K", values*history%column("flash_K"))
@@ -71,14 +71,14 @@ contains
       logical, intent(in) :: converged
       type(table_t) :: history
       real(dp), allocatable :: time(:), values(:)
-      logical, allocatable :: counts(:)
+      logical, allocatable :: in_window(:)
       real(dp) :: found
       integer :: k
 
       call duty_history(run, history)
       associate (duty => run%plan%duty, t => run%transient)
          allocate (time, source=history%column("t_s"))
-         allocate (counts(size(time)), source=time >= begin(run, 1)*(1.0_dp - 1.0e-9_dp))
+         allocate (in_window(size(time)), source=time >= begin(run, 1)*(1.0_dp - 1.0e-9_dp))
          do k = 1, size(quantities)
             if (k <= 2) call report_extreme("_min", trim(quantities(k)), trim(units(k)), -1.0_dp)
             call report_extreme(merge("    ", "_max", quantities(k) == "p_max"), trim(quantities(k)), trim(units(k)), 1.0_dp)
@@ -110,8 +110,8 @@ contains
          values = history%column(name//unit)
          extreme = not_known
          ! NaN at one time: the extreme is not known
-         if (converged .and. any(counts) .and. all(.not. (ieee_is_nan(values) .and. counts))) then
-            i = maxloc(direction*values, dim=1, mask=counts)
+         if (converged .and. any(in_window) .and. all(.not. (ieee_is_nan(values) .and. in_window))) then
+            i = maxloc(direction*values, dim=1, mask=in_window)
             extreme = [values(i), time(i), history%entry_of(name//"_error"//unit, i)]
          end if
          associate (title => "duty_"//name//trim(which))

@@ -13,7 +13,7 @@ module ehl_report_smooth
    use ehl_smooth_contact, only: smooth_contact_t
    implicit none (type, external)
    private
-   public :: report_smooth, touches_for_grid
+   public :: report_smooth, unresolved_solid_contact
 
    !> Increase of F with a domain of twice the size: int 2/r^2 dA = 4 pi ln 2 with the gap r^2/2 and the inlet viscosity. It matters
    !> for lubricants whose viscosity hardly increases with pressure.
@@ -67,7 +67,7 @@ contains
                          [limit(k), error(k) + domain(k), error(k), domain(k)])
          why = reason_none
          if (good .and. .not. plan%domain_error(k) < 1.0_dp) why = reason_small_domain
-         if (good .and. touches_for_grid(plan, smooth, n)) why = reason_inlet
+         if (good .and. unresolved_solid_contact(plan, smooth, n)) why = reason_inlet
          if (k == 1 .and. .not. good) why = why_no_solution(plan%contact, plan%point, plan%finest)
          call record%set_code(name//"_error_note", why)
       end do
@@ -140,7 +140,7 @@ contains
       call record%set("P_max_error", error(1))
       call record%set_code("P_max_error_note", merge(reason_none, note, known(1)))
       call record%set("F_error", error(2))
-      if (good .and. touches_for_grid(plan, smooth, n)) note = reason_inlet
+      if (good .and. unresolved_solid_contact(plan, smooth, n)) note = reason_inlet
       call record%set_code("F_error_note", merge(reason_none, note, known(2)))
    end subroutine report_limits
 
@@ -151,14 +151,14 @@ contains
       integer, intent(in) :: n
 
       knows_friction = .not. smooth%results(n)%m%touching%load_share > 0.0_dp .or. plan%lubricant%boundary_stress > 0.0_dp
-      if (touches_for_grid(plan, smooth, n)) knows_friction = .false.
+      if (unresolved_solid_contact(plan, smooth, n)) knows_friction = .false.
    end function knows_friction
 
    !> Whether the solid contact may be a grid error, as the grid does not resolve the inlet
-   pure logical function touches_for_grid(plan, smooth, n)
+   pure logical function unresolved_solid_contact(plan, smooth, n)
       type(plan_t), intent(in) :: plan
       type(smooth_contact_t), intent(in) :: smooth
       integer, intent(in) :: n
-      touches_for_grid = .not. plan%inlet%resolves(smooth%results(n)%m, smooth%results(n)%mesh)
-   end function touches_for_grid
+      unresolved_solid_contact = .not. plan%inlet%resolves(smooth%results(n)%m, smooth%results(n)%mesh)
+   end function unresolved_solid_contact
 end module ehl_report_smooth

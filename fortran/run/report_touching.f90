@@ -11,7 +11,7 @@ module ehl_report_touching
    use ehl_report_duty, only: duty_mean
    use ehl_reason, only: reason_boundary_friction, reason_coarser_inlet, reason_coarser_none, reason_inlet, &
                          reason_much_mass_defect, reason_no_solution, reason_none
-   use ehl_report_smooth, only: touches_for_grid
+   use ehl_report_smooth, only: unresolved_solid_contact
    use ehl_resolution, only: has_solution
    use ehl_touching, only: at_depth, known_names, mostly_touching, much_mass_defect, touching_names
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -67,7 +67,7 @@ contains
          dry = plan%inlet%is_dry()
          if (.not. ieee_is_finite(numbers(1))) then
             note = reason_no_solution
-         else if (.not. plan%surfaces%rough() .and. touches_for_grid(run%plan, run%smooth, run%level())) then
+         else if (.not. plan%surfaces%rough() .and. unresolved_solid_contact(run%plan, run%smooth, run%level())) then
             note = reason_inlet
             numbers = not_known
             error = not_known
@@ -100,7 +100,7 @@ contains
       real(dp) :: share
 
       why = reason_none
-      if (touches_for_grid(run%plan, run%smooth, run%level())) why = reason_inlet
+      if (unresolved_solid_contact(run%plan, run%smooth, run%level())) why = reason_inlet
       if (.not. run%plan%lubricant%boundary_film > 0.0_dp .or. run%plan%lubricant%boundary_stress > 0.0_dp) return
       share = 0.0_dp
       if (run%phase == phase_stationary) share = run%stationary%m%touching%load_share

@@ -22,7 +22,7 @@ submodule (ehl_solver) ehl_solver_results
    real(dp), parameter :: rounding = 1.0e-14_dp
    !> Largest relative change of mu_ratio between two grids that converge; and its largest increase with a single wave or feature,
    !> which is the same on both grids: a larger increase is due to unresolved pressure peaks
-   real(dp), parameter :: max_change = 0.5_dp, max_rise = 0.05_dp
+   real(dp), parameter :: max_change = 0.5_dp, max_increase = 0.05_dp
 
    !> Version of the names, units and meanings of results, equal to `VERSION` of pyehl/schema.py
    integer, parameter :: schema_version = 3
@@ -119,15 +119,15 @@ contains
       call record%set("mu_ratio_extrapolated", limit)
       call record%set("mu_ratio_unresolved", waves(2))
       parts(4) = waves(1)
-      associate (surfaces => self%run%plan%surfaces, mean => self%run%transient%mean, cost => self%run%plan%domain_error(1))
+      associate (surfaces => self%run%plan%surfaces, mean => self%run%transient%mean, domain_error => self%run%plan%domain_error(1))
          if (surfaces%mismatch > 0.0_dp .and. ieee_is_finite(ratio)) then
             parts(3) = merge(mean%window_error(), not_known, surfaces%meets)
             why(3) = reason_few_positions
             call record%set_detail("repeats", real(surfaces%repeats, dp))
             call record%set_detail("whole_periods", real(surfaces%whole, dp))
          end if
-         if (cost < 1.0_dp) then
-            parts(5) = ratio_error(cost, ratio)
+         if (domain_error < 1.0_dp) then
+            parts(5) = ratio_error(domain_error, ratio)
          else if (ieee_is_finite(ratio)) then
             why(5) = reason_small_domain
          end if
@@ -151,7 +151,7 @@ contains
 
       change = (ratio - self%run%coarser%ratio)/ratio
       has_limit = abs(change) <= max_change .and. .not. spike_grows(self%run%smooth%results, self%run%smooth%n)
-      if (self%run%plan%surfaces%same_on_grids()) has_limit = has_limit .and. change <= max_rise
+      if (self%run%plan%surfaces%same_on_grids()) has_limit = has_limit .and. change <= max_increase
    end function has_limit
 
    !> Grid error of the friction ratio for order 1, since two grids do not show that order 2 is reached (Roache 1994: three times

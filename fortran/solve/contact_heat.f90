@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Frictional heating in a run: of the smooth contact, and of the rough one at its end and in some of its steps
+!> Frictional heating in a run: of the smooth contact, and of the rough contact in some steps and at the end
 submodule (ehl_contact_run) ehl_contact_heat
    use ehl_heated_friction, only: heat_film
    use ehl_kinds, only: not_known
    use ehl_status, only: ehl_no_memory
    implicit none (type, external)
 
-   !> Steps per period at which it is computed: the reduction of friction by heating changes slowly
+   !> Number of steps per period with heating computed: the reduction of friction changes slowly
    integer, parameter :: samples = 32
 
 contains

@@ -29,7 +29,7 @@ module ehl_contact_run
    !> Phases: the smooth contact, the contact with a stationary rough surface, time steps
    integer, parameter :: phase_smooth = 1, phase_stationary = 2, phase_steps = 3
 
-   !> Work in time steps of the finest grid: done, and left until the earliest and the latest end; seconds spent
+   !> Work in time steps of the finest grid: done, and at the earliest and latest end; seconds spent
    type :: work_t
       real(dp) :: done = 0.0_dp, earliest = 0.0_dp, latest = 0.0_dp, seconds = 0.0_dp
    end type work_t
@@ -73,7 +73,7 @@ module ehl_contact_run
       procedure :: record_step
       procedure :: next_phase
       procedure :: is_filling
-      procedure :: restart_behind_front
+      procedure :: restart_with_front
       procedure :: is_rough
       procedure :: level
       procedure :: mu_ratio
@@ -106,12 +106,12 @@ module ehl_contact_run
       end subroutine begin_steps
 
       !> Restart with a front after the first steps from a prediction failed
-      module subroutine restart_behind_front(self, outcome, status)
+      module subroutine restart_with_front(self, outcome, status)
          class(contact_run_t), intent(inout) :: self
          !> Status of the failed step
          integer, intent(in) :: outcome
          type(status_t), intent(inout) :: status
-      end subroutine restart_behind_front
+      end subroutine restart_with_front
    end interface
 
    ! in contact_heat.f90
@@ -167,7 +167,7 @@ contains
          columns = [character(len=16) :: "cycle", "share", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "residual"]
       else if (self%plan%surfaces%move()) then
          columns = [character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "cycles", "residual"]
-         if (self%plan%heat%counts) columns = [character(len=16) :: columns, "heat_ratio"]
+         if (self%plan%heat%active) columns = [character(len=16) :: columns, "heat_ratio"]
          columns = [character(len=16) :: columns, touching_names(:known_names(self%plan%lubricant))]
       else
          columns = [character(len=16) :: "level", "points", "cycle", "H_c", "H_min", "P_max", "F", "load_error", "residual", &
@@ -188,7 +188,7 @@ contains
 
       self%grid = self%hierarchy%levels(n)%grid
       if (.not. (self%plan%has_next_phase() .and. outcome == outcome_converged)) self%outcome = outcome
-      if (self%plan%heat%counts .and. any(outcome == [outcome_converged, outcome_target_missed])) then
+      if (self%plan%heat%active .and. any(outcome == [outcome_converged, outcome_target_missed])) then
          call add_heat(self, n, .not. self%plan%has_next_phase(), self%smooth_heat, status)
       end if
       if (self%plan%has_next_phase()) return
@@ -215,7 +215,7 @@ contains
       end if
       self%seconds = self%seconds + seconds
       self%outcome = outcome
-      if (self%plan%heat%counts .and. outcome == outcome_converged) then
+      if (self%plan%heat%active .and. outcome == outcome_converged) then
          call add_heat(self, self%smooth%n, .true., self%rough_heat, status)
       end if
       associate (rough => self%stationary, m => self%stationary%m)
@@ -239,7 +239,7 @@ contains
          else
             row = [real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, m%film_central, &
                    m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, transient%residual]
-            if (self%plan%heat%counts) row = [row, step_heat(self)]
+            if (self%plan%heat%active) row = [row, step_heat(self)]
          end if
          numbers = m%touching%numbers()
          row = [row, numbers(:known_names(self%plan%lubricant))]
@@ -248,7 +248,7 @@ contains
             call transient%extremes%update(level, self%p_smooth, self%h_smooth, transient%time)
          end if
          self%outcome = transient_outcome(self%plan, transient)
-         if (self%plan%heat%counts .and. self%outcome == outcome_converged .and. .not. self%plan%duty%active) then
+         if (self%plan%heat%active .and. self%outcome == outcome_converged .and. .not. self%plan%duty%active) then
             call add_heat(self, self%smooth%n, .true., self%rough_heat, status)
          end if
          call self%frames%keep(level, transient%time, transient%time_step, self%plan%frame_interval, status)

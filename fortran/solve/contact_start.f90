@@ -14,7 +14,7 @@ contains
    module procedure begin_steps
       real(dp) :: errors(2)
 
-      ! friction is inversely proportional to the film: 20 % error of friction at 19 % of film (line, M = 100, L = 10, 257 nodes)
+      ! friction has nearly the relative error of the film: 20 and 19 % (line, M = 100, L = 10, 257 nodes)
       errors = 0.0_dp
       if (self%plan%line) errors = relative_errors(self%plan%contact, self%plan%point, self%grid%hx)
       associate (plan => self%plan, transient => self%transient, n => self%smooth%n, m => self%smooth%results(self%smooth%n)%m)
@@ -46,7 +46,7 @@ contains
 
       if (allocated(self%fallback_reason)) return
       if (.not. allocated(self%predicted%pressure)) then
-         call status%fail(ehl_bad_input, "time.start = 'prediction': this program predicts nothing"//new_line("a")// &
+         call status%fail(ehl_bad_input, "time.start = 'prediction': ehl makes no predictions"//new_line("a")// &
                           "expected: time.start = 'front', or 'pyehl run'")
          return
       end if
@@ -55,7 +55,7 @@ contains
       if (.not. done) self%fallback_reason = "the film would be negative"
    end subroutine begin_predicted
 
-   module procedure restart_behind_front
+   module procedure restart_with_front
       call self%checkpoint%forget()
       self%fallback_reason = "the first steps from it ended with '"//trim(outcome_names(outcome))//"'"
       associate (level => self%hierarchy%levels(self%smooth%n))
@@ -68,7 +68,7 @@ contains
       call self%begin_history()
       call begin_steps(self, status)
       self%outcome = outcome_running
-   end procedure restart_behind_front
+   end procedure restart_with_front
 
    !> Resume the time steps from the saved state
    subroutine take_state(self, status)

@@ -12,7 +12,7 @@ submodule (ehl_smooth_contact) ehl_cycle_guard
    !> Cycles stall if the residual decreases by less than this factor; number of cycles before acceleration may begin
    real(dp), parameter :: stalled = 0.6_dp
    integer, parameter :: stalls_after = 5
-   !> A cycle is rejected if the residual exceeds that of a solution and increases by this factor. Of five hard contacts
+   !> A cycle is rejected if the residual exceeds that of a solution and increases by this factor. Of five difficult contacts
    !> with L from 17 to 37 all converge with 1.05 and 1.2; with 2 and 4 one ends at the cycle limit (tests/cases/test_machines.py)
    real(dp), parameter :: max_growth = 1.2_dp
    !> First fraction of the sliding and of the pressure gradient in the shear-thinning law, and the factor by which it increases
@@ -46,7 +46,7 @@ contains
 
       if (status%failed() .or. .not. self%guarded) return
       associate (guard => self%guard)
-         guard%since = guard%since + 1
+         guard%cycles_since = guard%cycles_since + 1
          rejected = any(outcome == [outcome_diverged, outcome_negative_film])
          limit = max_residual
          if (guard%residual_kept > 0.0_dp) limit = max(residual_tolerance, max_growth*guard%residual_kept)
@@ -59,44 +59,44 @@ contains
                guard%shear_fraction = min_shear_fraction
                guard%shear_fraction_before = min_shear_fraction
                call hierarchy%soften(min_shear_fraction)
-               call go_back(self, hierarchy)
+               call restore_state(self, hierarchy)
                outcome = outcome_running
                return
             end if
-            if (guard%shear_fraction > 1.05_dp*guard%shear_fraction_before .and. guard%since <= 2) then
+            if (guard%shear_fraction > 1.05_dp*guard%shear_fraction_before .and. guard%cycles_since <= 2) then
                guard%shear_fraction = sqrt(guard%shear_fraction*guard%shear_fraction_before)
                call hierarchy%soften(guard%shear_fraction)
-               call go_back(self, hierarchy)
+               call restore_state(self, hierarchy)
                outcome = outcome_running
-               guard%since = 0
+               guard%cycles_since = 0
                return
             end if
             if (guard%damping == max_damping) return
             ! otherwise the same degree would be tried repeatedly
-            if (guard%since == 1 .and. guard%was_damped > 0) guard%lasting = guard%was_damped
-            guard%damping = max(guard%damping + 1, guard%lasting)
-            guard%was_damped = guard%damping
-            guard%since = 0
-            call go_back(self, hierarchy)
+            if (guard%cycles_since == 1 .and. guard%last_damping > 0) guard%min_damping = guard%last_damping
+            guard%damping = max(guard%damping + 1, guard%min_damping)
+            guard%last_damping = guard%damping
+            guard%cycles_since = 0
+            call restore_state(self, hierarchy)
             outcome = outcome_running
          else if (guard%shear_fraction < 1.0_dp .and. self%residual < near_solution) then
             guard%shear_fraction_before = guard%shear_fraction
             guard%shear_fraction = min(1.0_dp, fraction_growth*guard%shear_fraction)
-            guard%since = 0
+            guard%cycles_since = 0
             call hierarchy%soften(guard%shear_fraction)
             call update_coefficients(hierarchy%levels(self%n))
             guard%residual_kept = 0.0_dp
-         else if (guard%damping > guard%lasting .and. guard%since >= undamped_after) then
+         else if (guard%damping > guard%min_damping .and. guard%cycles_since >= undamped_after) then
             guard%damping = guard%damping - 1
-            guard%since = 0
+            guard%cycles_since = 0
          else if (outcome == outcome_running .and. mod(self%cycles, patience) == 0) then
-            if (self%residual > 0.5_dp*guard%residual_then .and. guard%damping < max_damping) then
+            if (self%residual > 0.5_dp*guard%residual_earlier .and. guard%damping < max_damping) then
                guard%damping = guard%damping + 1
-               guard%lasting = guard%damping
-               guard%since = 0
+               guard%min_damping = guard%damping
+               guard%cycles_since = 0
                call self%mixing%finish()
             end if
-            guard%residual_then = self%residual
+            guard%residual_earlier = self%residual
          end if
       end associate
       if (outcome /= outcome_running .or. self%cycles < stalls_after) return
@@ -115,7 +115,7 @@ contains
    end function may_soften
 
    !> Restore the state before the last cycle
-   subroutine go_back(self, hierarchy)
+   subroutine restore_state(self, hierarchy)
       class(smooth_contact_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
 
@@ -128,5 +128,5 @@ contains
       end associate
       self%residual = self%guard%residual_kept
       call self%mixing%finish()
-   end subroutine go_back
+   end subroutine restore_state
 end submodule ehl_cycle_guard

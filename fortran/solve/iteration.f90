@@ -105,23 +105,23 @@ contains
 
    !> Reduction q of the error per cycle, the ratio of the last two changes: the remaining error is q/(1 - q) times the last change.
    !> The change of the first cycle includes the change of grid or problem, and is no measure of the next.
-   pure real(dp) function reduction(change, change_before, cycles, fall, least) result(q)
+   pure real(dp) function reduction(change, change_before, cycles, residual_ratio, lower_bound) result(q)
       real(dp), intent(in) :: change(:), change_before(:)
       !> Cycles made
       integer, intent(in) :: cycles
       !> Ratio of the residuals after and before the last cycle, as an upper bound of q: after a change that is small by chance
       !> the ratio of changes is too large
-      real(dp), intent(in), optional :: fall
+      real(dp), intent(in), optional :: residual_ratio
       !> Lower bound of q, default `min_reduction`
-      real(dp), intent(in), optional :: least
+      real(dp), intent(in), optional :: lower_bound
       real(dp) :: lower
 
       lower = min_reduction
-      if (present(least)) lower = least
+      if (present(lower_bound)) lower = lower_bound
       q = min_reduction
       if (cycles <= 1) return
       q = min(maxval(change/max(change_before, tiny(1.0_dp))), max_reduction)
-      if (present(fall)) q = min(q, fall)
+      if (present(residual_ratio)) q = min(q, residual_ratio)
       q = max(lower, q)
    end function reduction
 end module ehl_iteration

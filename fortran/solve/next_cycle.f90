@@ -18,7 +18,7 @@ submodule (ehl_smooth_contact) ehl_next_cycle
    !> Smallest relative algebraic error that a reduced cycle reaches; a smaller one would cost another cycle
    real(dp), parameter :: light_error = 3.0e-4_dp
    !> The value of `near_solution` in the last attempt at a wide contact
-   real(dp), parameter :: near_spared = 0.5_dp
+   real(dp), parameter :: near_solution_wide = 0.5_dp
    !> Few cycles of a level that started from a coarser one, and from the Hertz pressure
    integer, parameter :: min_cycles = 2, cycles_from_guess = 3
 
@@ -30,8 +30,8 @@ contains
       self%cycle_passage = self%passage
       if (level%supply%active) self%layer_central = level%supply%layer(1 + nint(-level%grid%y0/level%grid%hy))
       self%next_cycle = cycle_options(self)
-      if (self%residual > near_solution .or. self%n < self%options%spares_from) self%next_cycle%spare_spikes = .false.
-      if (self%spares .and. self%residual > 0.0_dp) self%next_cycle%spare_spikes = self%residual < near_spared
+      if (self%residual > near_solution .or. self%n < self%options%spare_spikes_from) self%next_cycle%spare_spikes = .false.
+      if (self%spares_spikes .and. self%residual > 0.0_dp) self%next_cycle%spare_spikes = self%residual < near_solution_wide
       self%max_cycles = self%options%max_cycles
       if (self%contact%is_roller()) self%max_cycles = roller_cycles*self%max_cycles
       if (is_end(self%options, self%n) .and. share_counts(self%options, self%m)) then

@@ -39,10 +39,10 @@ module ehl_smooth_contact
 
    !> Record of the cycles of a level, used to reject failed ones
    type :: guard_t
-      !> Degree of damping of the next cycle (0: none), of the last rejected cycle, and the minimum for the rest of the level
-      integer :: damping = 0, was_damped = 0, lasting = 0
+      !> Degree of damping of the next cycle (0: none), of the last rejected cycle, and minimum degree for the rest of the level
+      integer :: damping = 0, last_damping = 0, min_damping = 0
       !> Cycles since the degree was changed
-      integer :: since = 0
+      integer :: cycles_since = 0
       !> State before the last cycle
       real(dp), allocatable :: p_before(:, :)
       real(dp) :: h00_before = 0.0_dp
@@ -50,7 +50,7 @@ module ehl_smooth_contact
       real(dp) :: shear_fraction = 1.0_dp, shear_fraction_before = 1.0_dp
       logical :: softened = .false.
       !> Residual after the last accepted cycle, and some cycles earlier
-      real(dp) :: residual_kept = 0.0_dp, residual_then = huge(1.0_dp)
+      real(dp) :: residual_kept = 0.0_dp, residual_earlier = huge(1.0_dp)
    end type guard_t
 
    !> Iteration on level n
@@ -70,11 +70,11 @@ module ehl_smooth_contact
       !> Whether failed cycles are rejected and stalling ones accelerated
       logical, private :: guarded = .false.
       !> Whether coarse grids leave spikes to relaxation on all levels: the last attempt at a wide contact
-      logical, private :: spares = .false.
+      logical, private :: spares_spikes = .false.
       type(guard_t), private :: guard
       !> Whether the inlet is flooded. A line, which has no side flow, is first solved flooded; the layer limits the flow only if
       !> the flooded contact needs more.
-      logical, private :: floods = .false.
+      logical, private :: flooded_inlet = .false.
       !> Meniscus of a starved line, fixed if cycles with a free one have failed
       type(meniscus_t), private :: meniscus
       !> Present passage, passage of the last cycle, and its layer at Y = 0
@@ -171,7 +171,7 @@ contains
       if (options%guarded .and. .not. options%line) self%rule = rule_of_ellipses
       if (contact%is_roller()) self%rule = rule_of_rollers
       if (options%flooded) call self%far_field%setup(contact)
-      self%floods = options%line
+      self%flooded_inlet = options%line
       self%max_cycles = options%max_cycles
       self%of_film = .true.
       self%guarded = options%guarded
@@ -190,7 +190,7 @@ contains
       if (status%failed()) return
       if (self%damped) call hierarchy%forget()
       call hierarchy%soften(1.0_dp)
-      call hierarchy%supply(merge(huge(1.0_dp), self%options%layer, self%options%layer > 0.0_dp .and. self%floods))
+      call hierarchy%supply(merge(huge(1.0_dp), self%options%layer, self%options%layer > 0.0_dp .and. self%flooded_inlet))
       associate (level => hierarchy%levels(self%n), grid => hierarchy%levels(self%n)%grid)
          do j = 1, grid%ny
             call self%contact%gap_row(grid%columns(), grid%y(j), level%film_rhs(:, j))
@@ -234,12 +234,12 @@ contains
       class(smooth_contact_t), intent(inout) :: self
       !> Results before the cycle
       type(contact_results_t), intent(in) :: before
-      real(dp) :: change(2), q, fall
+      real(dp) :: change(2), q, residual_ratio
 
       change = abs(self%m%films() - before%films())
-      fall = huge(fall)
-      if (self%rule%bounded .and. self%cycles > 1) fall = self%residual/max(self%residual_before, tiny(1.0_dp))
-      q = reduction(change, self%change, self%cycles, fall, self%rule%min_reduction)
+      residual_ratio = huge(residual_ratio)
+      if (self%rule%bounded .and. self%cycles > 1) residual_ratio = self%residual/max(self%residual_before, tiny(1.0_dp))
+      q = reduction(change, self%change, self%cycles, residual_ratio, self%rule%min_reduction)
       self%results(self%n)%algebraic = change*q/(1.0_dp - q)
       self%change = change
       self%stall = self%residual/max(self%residual_before, tiny(1.0_dp))
@@ -258,7 +258,7 @@ contains
       may_scale_load = is_end(self%options, self%n) .and. error <= self%rule%small_load_error
       if (may_scale_load) may_scale_load = accurate(self%options, self%results, self%n, self%m, self%residual, &
                                                     self%cycles < self%max_cycles)
-      if (may_scale_load) may_scale_load = film_per_load*error <= self%rule%share_of_load* &
+      if (may_scale_load) may_scale_load = film_per_load*error <= self%rule%load_fraction* &
                                            minval(allowed_errors(self%options, self%results, self%n, self%m))
    end function may_scale_load
 
@@ -331,8 +331,8 @@ contains
             return
          end if
       end associate
-      if (self%floods .and. self%m%oil%enters > self%options%layer .and. self%options%layer > 0.0_dp) then
-         self%floods = .false.
+      if (self%flooded_inlet .and. self%m%oil%enters > self%options%layer .and. self%options%layer > 0.0_dp) then
+         self%flooded_inlet = .false.
          self%begun = .false.
          self%results(self%n)%solved = .false.
          outcome = outcome_running

@@ -29,11 +29,11 @@ contains
          else if (.not. self%guarded) then
             self%guarded = .true.
             self%damped = .false.
-         else if (self%options%guarded .and. .not. self%spares .and. self%options%spares_from < huge(1)) then
-            self%spares = .true.
+         else if (self%options%guarded .and. .not. self%spares_spikes .and. self%options%spare_spikes_from < huge(1)) then
+            self%spares_spikes = .true.
          else if (self%options%line .and. self%options%layer > 0.0_dp .and. .not. self%meniscus%active) then
             self%meniscus%active = .true.
-            self%floods = .false.
+            self%flooded_inlet = .false.
          else
             return
          end if

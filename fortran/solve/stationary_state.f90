@@ -140,12 +140,12 @@ contains
    !> Whether the present fraction is solved; one cycle is too few for the error estimate
    pure logical function converged(self)
       class(stationary_t), intent(in) :: self
-      real(dp) :: wanted
+      real(dp) :: tolerance
 
       converged = self%failure_status() == outcome_running
       if (.not. converged) return
-      wanted = merge(fraction_tolerance, self%tolerance, .not. self%smooth .and. self%fraction < 1.0_dp)
-      converged = self%algebraic <= wanted .and. abs(self%m%load_error) <= load_tolerance &
+      tolerance = merge(fraction_tolerance, self%tolerance, .not. self%smooth .and. self%fraction < 1.0_dp)
+      converged = self%algebraic <= tolerance .and. abs(self%m%load_error) <= load_tolerance &
                   .and. self%residual <= residual_tolerance .and. self%cycles > 1 .and. self%m%holds
    end function converged
 

@@ -36,7 +36,7 @@ contains
          if (outcome == outcome_converged) then
             call run%record_step(status)
          else if (run%is_filling()) then
-            call run%restart_behind_front(outcome, status)
+            call run%restart_with_front(outcome, status)
          else
             run%outcome = outcome
          end if

@@ -227,8 +227,8 @@ contains
       type(level_t), intent(in) :: level
 
       self%next_cycle = self%policy%options
-      self%policy%touching = level%boundary%touches()
-      if (self%policy%touching) self%next_cycle%coarsening = coarsening_classical
+      self%policy%solid_contact = level%boundary%touches()
+      if (self%policy%solid_contact) self%next_cycle%coarsening = coarsening_classical
    end subroutine begin_cycle
 
    !> Whether only a small load error remains

@@ -20,7 +20,7 @@ module ehl_steady_options
       !> Options of the cycles, and of the second cycle of a level that started from a coarser one
       type(cycle_options_t) :: cycle, second_cycle
       !> First level on which coarse grids may leave sharp pressure spikes to relaxation
-      integer :: spares_from = 1
+      integer :: spare_spikes_from = 1
       !> Allowed algebraic error over the discretisation error
       real(dp) :: accuracy = 0.1_dp
       !> Target of the relative error of H_c; 0: none, solve on the finest grid
@@ -48,8 +48,8 @@ module ehl_steady_options
    type :: end_rule_t
       !> Largest relative error of the force balance that scaling the pressure may correct; its largest effect on the film over the
       !> allowed algebraic error
-      real(dp) :: small_load_error, share_of_load
-      !> Whether the reduction of the residual bounds the estimated one, and the error includes that of the load
+      real(dp) :: small_load_error, load_fraction
+      !> Whether the reduction of the residual limits the estimated reduction, and the algebraic error includes that of the load
       logical :: bounded
       !> Lower bound of the estimated reduction per cycle
       real(dp) :: min_reduction = 0.3_dp

@@ -15,7 +15,7 @@ module ehl_duty
    !> Times before the table: in which the quantities change from the case to the first row, and in which the film adapts to it
    !> [a/u of the first row]
    real(dp), parameter :: ramp = 2.0_dp, follow = 4.0_dp
-   !> Mean velocity of the first row over that of the case below which no time to adapt is added
+   !> Smallest mean velocity of the first row over that of the case for which time to adapt is added
    real(dp), parameter :: at_rest = 0.05_dp
    !> Relative difference below which values are equal
    real(dp), parameter :: same = 1.0e-12_dp

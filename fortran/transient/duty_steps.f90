@@ -117,7 +117,7 @@ contains
       if (self%steps(1) > 0.0_dp) ratio = step/self%steps(1)
    end function ratio
 
-   !> Test the error added by a step: not good if it exceeds the target and the step may be halved
+   !> Test the error added by a step: `good` is false if it exceeds the target and the step may be halved
    subroutine assess(self, duty, step, speed, error, good)
       class(duty_steps_t), intent(inout) :: self
       type(duty_t), intent(in) :: duty

@@ -13,8 +13,8 @@ module ehl_friction_mean
    real(dp), parameter :: lags(*) = [0.25_dp, 0.5_dp, 0.75_dp, 1.0_dp]
    real(dp), parameter :: longest_lag = 0.5_dp
    !> The mean is taken over one period, or after this many periods over all but the first `start_up` ones, in which the effect of
-   !> the start decays. A mean that settles so late is dominated by pressure peaks of single nodes, of which each period samples
-   !> other phases, as it is not a whole number of steps.
+   !> the start decays. Means that settle so late are dominated by pressure peaks of single nodes, which each period samples at
+   !> other phases, since a period is not a whole number of steps.
    real(dp), parameter :: many_periods = 20.0_dp
    integer, parameter :: start_up = 2
    !> Periods of the slowest surface after which an unsettled run is stopped; the slowest known run settled after 21

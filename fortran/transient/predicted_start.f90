@@ -22,7 +22,7 @@ module ehl_predicted_start
       !> Predicted pressure increase by the roughness at the times of `steps_ago` [p_h], shape (nx, ny, 4)
       real(dp), allocatable :: pressure(:, :, :)
    contains
-      procedure :: take
+      procedure :: set_pressure
       procedure :: coarser
    end type predicted_start_t
 
@@ -74,7 +74,7 @@ contains
    end function start_fronts
 
    !> Set the pressure at the times of `steps_ago`
-   subroutine take(self, surfaces, grid, pressure)
+   subroutine set_pressure(self, surfaces, grid, pressure)
       class(predicted_start_t), intent(inout) :: self
       class(moving_surfaces_t), intent(in) :: surfaces
       type(grid_t), intent(in) :: grid
@@ -84,7 +84,7 @@ contains
 
       self%time = start_time(surfaces, grid)
       self%pressure = pressure(:, [(modulo(grid%rows_below() + j - 1, grid%full_ny()) + 1, j=1, grid%ny)], :)
-   end subroutine take
+   end subroutine set_pressure
 
    !> The same start on the next coarser grid
    pure function coarser(self) result(start)

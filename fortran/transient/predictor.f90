@@ -136,8 +136,8 @@ contains
       end do
    end subroutine extrapolate
 
-   !> Weighted squared errors of row j: by the deflection they cause (of the order of the error, in the squeeze term)
-   !> and by the flow along X they cause
+   !> Squared errors of row j, weighted by the deflection (of the order of the error, in the squeeze term) and the flow along X that
+   !> they cause
    pure subroutine weigh(level, j, error, weight)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j

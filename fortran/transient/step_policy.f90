@@ -40,7 +40,7 @@ module ehl_step_policy
       logical :: may_change = .false.
       !> Whether there is solid contact: the conductance then does not limit the changes of its nodes, and the coarsening remains
       !> classical
-      logical :: touching = .false.
+      logical :: solid_contact = .false.
       !> Present step: tolerance of the rms residual, whether it makes an additional cycle to measure the sensitivity, attempt,
       !> number of cycles, options of the next cycle
       real(dp) :: tolerance = 0.0_dp
@@ -101,7 +101,7 @@ contains
       if (self%attempt < attempt_damped) return
       self%options%relaxation_factor = damped_sweep
       self%options%correction_factor = merge(squeeze_correction, damped_correction, self%cycle%finest_only)
-      self%options%finest_only = self%touching .or. self%cycle%finest_only
+      self%options%finest_only = self%solid_contact .or. self%cycle%finest_only
    end subroutine begin_attempt
 
    !> Choose the action after a cycle that changed the residual from `before` to `residual`
@@ -120,7 +120,7 @@ contains
       if (self%cycles >= damped_cycles*self%max_cycles) return
       self%past = [residual, self%past(:ubound(self%past, 1) - 1)]
       if (has_stalled(self)) then
-         self%attempt = merge(attempt_damped, self%attempt + 1, self%touching .or. self%cycle%finest_only .or. &
+         self%attempt = merge(attempt_damped, self%attempt + 1, self%solid_contact .or. self%cycle%finest_only .or. &
                               self%cycles >= self%max_cycles)
          next = step_restarts
          return
@@ -135,7 +135,7 @@ contains
       if (self%coarsening == coarsening_alcouffe) then
          ! another pre-relaxation for the rest of the attempt; with classical coarsening it can slow convergence
          self%options%pre = self%cycle%pre + 1
-      else if (self%may_change .and. .not. self%touching) then
+      else if (self%may_change .and. .not. self%solid_contact) then
          self%coarsening = coarsening_alcouffe
          self%changed_at = step
          next = step_restarts
