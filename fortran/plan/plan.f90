@@ -177,8 +177,9 @@ contains
       call pick_grids(input, plan, status)
       ! with shear thinning cycles that leave spikes to relaxation diverge on coarse grids (kappa = 12, L = 28, Eyring)
       if (plan%lubricant%shear%thins_flow()) plan%spare_spikes_from = plan%levels
-      if (plan%solid_contact .or. plan%contact%reach(2) <= oblique*plan%contact%reach(1)) &
+      if (plan%solid_contact .or. plan%contact%reach(2) <= oblique*plan%contact%reach(1)) then
          plan%spare_spikes_from = huge(plan%spare_spikes_from)
+      end if
       if (status%failed() .or. .not. plan%surfaces%rough()) return
       call plan%surfaces%use_threads(plan%threads)
       call plan%surfaces%find_period(merge(plan%max_periods, automatic_periods, plan%max_periods > 0))
