@@ -85,7 +85,7 @@ contains
       deallocate (self%path)
    end subroutine release
 
-   !> Remove the locks that runs of this machine which have ended left in a folder
+   !> Remove stale locks in a folder: those of runs of this machine that have ended
    subroutine remove_stale_locks(folder, ended)
       character(len=*), intent(in) :: folder
       !> Absolute paths of the folders of these runs

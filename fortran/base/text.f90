@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Text: numbers as text, lower case, lines, and the nearest of several words
 !>
-!> Several threads make texts. gfortran stores the length of an allocatable function result in static memory, so the
-!> length of numbers as text follows from their arguments. tests/core/test_threads.py detects the other kind where it matters.
+!> Several threads convert numbers to text. gfortran stores the length of an allocatable function result in static memory, so
+!> the length of these texts follows from the arguments. tests/core/test_threads.py detects allocatable results in threads.
 module ehl_text
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp

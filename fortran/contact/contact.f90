@@ -67,7 +67,7 @@ contains
       is_roller = .false.
    end function is_roller
 
-   !> Half width of the dry contact along X, at a load and a curvature, all over the values of the case
+   !> Half width of the dry contact along X at a load and a curvature, each over its value in the case
    elemental real(dp) function growth(self, load, curvature)
       class(contact_t), intent(in) :: self
       real(dp), intent(in) :: load, curvature

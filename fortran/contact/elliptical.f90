@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The elliptical contact of bodies with two radii (Hertz 1881; Johnson 1985, section 4.2)
 !>
-!> Lengths are scaled by the semi-axis a along the motion, or along the axis at an angle to it; the other
-!> one is kappa a. The potential of the Hertz pressure on this ellipse
+!> Lengths are scaled by the semi-axis a, which lies along the motion or at an angle to it; the other
+!> semi-axis is kappa a. The potential of the Hertz pressure on this ellipse
 !> is iint P/r = l - c_x X^2 - c_y Y^2 inside it, with
 !>
 !>    c_x = pi kappa/3 R_D(0, kappa^2, 1),  c_y = pi kappa/3 R_D(0, 1, kappa^2),  l = pi kappa R_F(0, 1, kappa^2),

@@ -46,7 +46,7 @@ module ehl_mlmi_up
 contains
 
    !> Weights of 2t-point interpolation midway between two points: omega(k) belongs to the
-   !> two points at distance 2k-1 half meshes
+   !> two points at a distance of 2k-1 half mesh sizes
    pure function transfer_weights(t) result(omega)
       integer, intent(in) :: t
       real(dp) :: omega(t)

@@ -41,7 +41,7 @@ contains
    !> Set up the coarse problem whose solution corrects the fine level. Needs the residual of the fine level.
    subroutine restrict_problem(fine, coarse, space, coarsening, kind_of_coarsening)
       type(level_t), intent(inout) :: fine, coarse
-      !> Of the coarse level
+      !> Work space of the coarse level
       type(workspace_t), intent(inout) :: space
       type(coarsening_t), intent(inout) :: coarsening
       integer, intent(in) :: kind_of_coarsening
@@ -139,7 +139,7 @@ contains
    !> is then free to be the finest level of another cycle.
    subroutine correct(fine, coarse, space, transfer, coarsening, relaxation_factor, spare_spikes)
       type(level_t), intent(inout) :: fine, coarse
-      !> Of the coarse level
+      !> Work space of the coarse level
       type(workspace_t), intent(inout) :: space
       type(transfer_t), intent(in) :: transfer
       integer, intent(in) :: coarsening

@@ -218,8 +218,8 @@ contains
       excess = excess + t*((d(1) + d(2)) + (d(3) + d(4)))
    end subroutine add_cell
 
-   !> Transfer from the fine operator, and the Poiseuille operator of the coarse level. That operator is frozen
-   !> while the coarse level is solved: updated with P and H of that level, the cycle diverges in the contact.
+   !> Transfer from the fine operator, and the Poiseuille operator of the coarse level. That operator is frozen while the
+   !> coarse level is solved: if it followed P and H of that level, the cycle would diverge in the contact.
    subroutine build_galerkin(fine, coarse, coarsening)
       type(level_t), intent(in) :: fine
       type(level_t), intent(inout) :: coarse

@@ -36,7 +36,7 @@ module ehl_hierarchy
       type(coarsening_t), allocatable :: coarsenings(:)
       !> The coarse level that corrects each level; 0: the level is solved directly
       integer, allocatable :: below(:)
-      !> Direct solvers of the latter
+      !> Direct solvers of these levels
       type(coarsest_t), allocatable :: coarsest(:)
       !> Levels of full multigrid that have been set up
       integer :: ready = 0

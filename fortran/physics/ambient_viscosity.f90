@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Viscosity at ambient pressure over temperature: from the two kinematic viscosities of a data sheet, or by Vogel 1921,
+!> Viscosity at ambient pressure as a function of temperature: from two kinematic viscosities of a data sheet, or by Vogel 1921,
 !> eta = K exp(B/(theta + C))
 module ehl_ambient_viscosity
    use ehl_heat, only: new_walther, walther_t
@@ -35,7 +35,7 @@ contains
       law%expansion = expansion
    end function new_ambient_viscosity
 
-   !> ln(eta/Pa s) at a temperature [degC]; that of the smallest positive number where the viscosity is not positive
+   !> ln(eta/Pa s) at a temperature [degC]; where the viscosity is not positive, the logarithm of the smallest positive number
    pure real(dp) function log_viscosity(self, temperature)
       class(ambient_viscosity_t), intent(in) :: self
       real(dp), intent(in) :: temperature

@@ -2,7 +2,7 @@
 !> Flow factors (factor_rows.f90) of the nodes of a grid, cached with their derivatives: near the cached sliding B and gradient
 !> S, factors and stress are extrapolated to first order, with an error below 1e-4 in addition to that of factor_rows.f90.
 !> Sweeps and cycles change most nodes by less. So factors depend on the history of the cache, until `forget`. Where the
-!> lubricant flows as a Newtonian one nothing is cached: memory access would take longer than the test for it.
+!> flow is Newtonian nothing is cached: memory access would take longer than the test for this case.
 module ehl_cached_factors
    use, intrinsic :: iso_fortran_env, only: int64, real32
    use ehl_factor_rows, only: factor_rows_t, find_factors, flows_newtonian

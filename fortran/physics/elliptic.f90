@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Complete elliptic integrals in Carlson's symmetric form, which is symmetric in the axes
+!> Complete elliptic integrals in Carlson's symmetric form
 module ehl_elliptic
    use ehl_kinds, only: dp, pi
    implicit none (type, external)

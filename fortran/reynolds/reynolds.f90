@@ -8,7 +8,7 @@
 !> and P = 0 elsewhere, where the left-hand side is not positive: nothing flows out of a cavitated node, or, with a starved
 !> inlet, all oil that it receives (supply.f90). P on the border is 0, or that of a flooded contact (far_field.f90). eps_x and
 !> eps_y are the conductances (flow.f90), for a Newtonian lubricant both rho H^3/(eta lambda_bar); rho and eta depend on P
-!> (physics/lubricant.f90), H on all of P.
+!> (physics/lubricant.f90), H on the whole pressure field.
 !>
 !> Discrete, at node (i, j), with m = rho H:
 !>
@@ -258,7 +258,7 @@ contains
    end subroutine pass_load_on
 
    !> Correct a small relative error of the force balance by scaling the pressure inside the border (in line contacts the part
-   !> above the border pressure) except at yielding nodes; H00 changes so that the mean film under the pressure does not. Film
+   !> above the border pressure) except at yielding nodes; H00 is adapted to keep the mean film under the pressure. Film
    !> and coefficients are up to date before and after.
    subroutine balance_load(level)
       type(level_t), intent(inout) :: level

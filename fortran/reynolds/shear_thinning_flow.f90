@@ -39,7 +39,7 @@ module ehl_shear_thinning_flow
 
 contains
 
-   !> A flow by its law; b0 and s0 as above
+   !> Create a flow from its law; b0 and s0 as above
    pure function new_shear_thinning_flow(law, sliding, gradient) result(flow)
       type(thinning_t), intent(in) :: law
       real(dp), intent(in) :: sliding, gradient

@@ -15,7 +15,7 @@
 !>
 !>    rhs(i) - N(i) = s d(i) + missing(i),     rhs: of earlier times,     missing(i) = (U/hx) f(i)
 !>
-!> where U (G - f) flows through the east face: the content rho H - d, of second order upstream as G is, f = (3 d(i) - d(i-1))/2.
+!> where U (G - f) flows through the east face, with the deficit f = (3 d(i) - d(i-1))/2 there, of second order upstream like G.
 !> So the condition of a node is d >= 0 in place of C <= G, and the film begins at a face between two nodes, not at a node. The
 !> difference is of second order in the mesh size; time steps start from the steady contact in their own discretisation
 !> (solve/transient_duty.f90).
@@ -84,7 +84,7 @@ contains
       self%passed_fraction = speed/self%hx/(squeeze/1.5_dp + speed/self%hx)
    end subroutine set_step
 
-   !> Subtract the deficit upstream from row j of the operator of filled nodes
+   !> Subtract the upstream deficit from row j of the operator, which is that of filled nodes
    pure subroutine transport_row(self, cavitated, mass_content, rhs, j, values, passing, missing, short)
       class(supply_t), intent(in) :: self
       !> Which nodes have P = 0, rho H, and the right-hand side; shape (nx)

@@ -44,14 +44,14 @@ module ehl_moving_surfaces
 
 contains
 
-   !> Whether a rough surface moves: time steps
+   !> Whether a rough surface moves, which requires time steps
    pure logical function move(self)
       class(moving_surfaces_t), intent(in) :: self
       integer :: k
       move = any([(.not. self%of(k)%surface%at_rest(), k=1, self%count())])
    end function move
 
-   !> Whether there is a rough surface and none moves: a steady contact
+   !> Whether there are rough surfaces and none moves, so that the contact is steady
    pure logical function all_stationary(self)
       class(moving_surfaces_t), intent(in) :: self
       all_stationary = self%rough() .and. .not. self%move()

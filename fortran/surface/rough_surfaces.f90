@@ -19,7 +19,7 @@ module ehl_rough_surfaces
       !> Body to which it belongs
       integer :: body = 1
       class(surface_t), allocatable :: surface
-      !> Amplitude over the smooth central film; 0: the surface has its amplitude
+      !> Amplitude over the smooth central film; 0: not given relative to it
       real(dp) :: amplitude_over_film = 0.0_dp
    end type member_t
 
@@ -59,13 +59,13 @@ module ehl_rough_surfaces
 
 contains
 
-   !> Add a surface, which is moved
+   !> Add a surface; it is deallocated in the caller
    subroutine add(self, group, surface, amplitude_over_film, body)
       class(rough_surfaces_t), intent(inout) :: self
       !> Group of the case that defines it
       character(len=*), intent(in) :: group
       class(surface_t), allocatable, intent(inout) :: surface
-      !> Amplitude over the smooth central film; 0: the surface has its amplitude
+      !> Amplitude over the smooth central film; 0: not given relative to it
       real(dp), intent(in) :: amplitude_over_film
       integer, intent(in) :: body
       type(member_t), allocatable :: more(:)

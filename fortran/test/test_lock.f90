@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Locks, also such that fail
+!> Locks, valid and invalid
 module test_lock
    use check, only: is_equal, is_true
    use ehl_lock, only: lock, lock_t, unlock
