@@ -10,7 +10,7 @@ module ehl_destination
    use, intrinsic :: iso_c_binding, only: c_ptr
    use ehl_earlier_result, only: command_of, found_t, is_replaceable, read_result, summary
    use ehl_files, only: absolute_path, file_exists, make_folder, may_write, real_path, remove_file, remove_folder, rename_path
-   use ehl_folders, only: change_places, folder_above, full_path, is_here, is_movable, is_there, link_text, list_folder, &
+   use ehl_folders, only: swap_paths, folder_above, full_path, is_here, is_movable, is_there, link_text, list_folder, &
                           lock_folder, make_link, make_parents, move_new, spare_path, unlock_folder, name_t
    use ehl_folder_lock, only: remove_stale_locks
    use ehl_folder_trial, only: try_folder, try_path
@@ -231,7 +231,7 @@ contains
             end if
          end associate
       end do
-      replaced = change_places(fresh, found%path)
+      replaced = swap_paths(fresh, found%path)
       if (.not. replaced) return
       ! what cannot be moved or removed now remains where its link points to
       do k = 1, size(found%entries)
@@ -239,7 +239,7 @@ contains
             gone = removable(name, fresh)
             ! another process may have moved it
             if (link_text(found%path//"/"//name) == back//name) then
-               gone = change_places(fresh//"/"//name, found%path//"/"//name)
+               gone = swap_paths(fresh//"/"//name, found%path//"/"//name)
                if (gone) gone = link_text(fresh//"/"//name) == back//name
             end if
             if (gone) gone = remove_file(fresh//"/"//name)

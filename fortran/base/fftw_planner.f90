@@ -42,7 +42,7 @@ contains
    end subroutine drop_plan
 
    !> Release the planner; an error if FFTW has made no plan
-   subroutine take_plan(plan, what, status)
+   subroutine finish_planning(plan, what, status)
       type(c_ptr), intent(in) :: plan
       !> Purpose of the plan, for the message
       character(len=*), intent(in) :: what
@@ -50,7 +50,7 @@ contains
 
       call unlock_planner(status)
       if (.not. c_associated(plan)) call status%fail(ehl_internal, "FFTW made no plan for "//what)
-   end subroutine take_plan
+   end subroutine finish_planning
 
    !> Plan of a complex transform in place
    subroutine plan_complex(plan, n, work, direction, status)
@@ -67,7 +67,7 @@ contains
       call lock_planner(status)
       if (status%failed()) return
       plan = fftw_plan_dft_1d(int(n, c_int), work, same, direction, fftw_estimate)
-      call take_plan(plan, "a complex transform", status)
+      call finish_planning(plan, "a complex transform", status)
    end subroutine plan_complex
 
    !> Plan of a transform from half a spectrum to n real values
@@ -83,7 +83,7 @@ contains
       call lock_planner(status)
       if (status%failed()) return
       plan = fftw_plan_dft_c2r_1d(int(n, c_int), spectrum, values, fftw_estimate)
-      call take_plan(plan, "a real transform", status)
+      call finish_planning(plan, "a real transform", status)
    end subroutine plan_to_real
 
    !> Half spectrum (n1/2 + 1, n2) of values (n1, n2), divided by n1 n2: amplitudes of exp(i(k1 x1 + k2 x2)).
@@ -107,7 +107,7 @@ contains
       call lock_planner(status)
       if (status%failed()) return
       plan = fftw_plan_dft_r2c_2d(int(n(2), c_int), int(n(1), c_int), padded, spectrum, fftw_estimate)
-      call take_plan(plan, "the spectrum of a tile", status)
+      call finish_planning(plan, "the spectrum of a tile", status)
       if (status%failed()) return
       do j = 1, n(2)
          padded(:n(1), j) = values(:, j)
@@ -140,7 +140,7 @@ contains
       call lock_planner(status)
       if (status%failed()) return
       plan = fftw_plan_r2r_2d(int(n(2), c_int), int(n(1), c_int), cosines, same, fftw_redft10, fftw_redft10, fftw_estimate)
-      call take_plan(plan, "the waves of a mirrored map", status)
+      call finish_planning(plan, "the waves of a mirrored map", status)
       if (status%failed()) return
       do j = 1, n(2)
          cosines(:, j) = values(:, j)
@@ -168,7 +168,7 @@ contains
       call lock_planner(status)
       if (status%failed()) return
       plan = fftw_plan_dft_c2r_2d(int(n(2), c_int), int(n(1), c_int), spectrum, padded, fftw_estimate)
-      call take_plan(plan, "the heights of a tile", status)
+      call finish_planning(plan, "the heights of a tile", status)
       if (status%failed()) return
       call fftw_execute_dft_c2r(plan, spectrum, padded)
       call drop_plan(plan)

@@ -69,7 +69,7 @@ contains
          ! the other run may have ended meanwhile
          if (.not. is_there(path)) cycle
          call refuse_if_held(folder, path, text, status)
-         if (.not. status%failed()) call take_away(path, text)
+         if (.not. status%failed()) call remove_if_unchanged(path, text)
       end do
       done = remove_file(fresh)
       if (.not. status%failed()) call status%fail(ehl_file, path//": error: cannot be written")
@@ -106,7 +106,7 @@ contains
          call read_text(path, longest, text, reading)
          if (.not. reading%failed()) call refuse_if_held(folder, path, text, held)
          if (reading%failed() .or. held%failed()) cycle
-         call take_away(path, text)
+         call remove_if_unchanged(path, text)
          ! via a variable: gfortran 12 gives a component that is set to an expression a length of one byte
          path = path(:len(path) - len(suffix))
          ended = [ended, name_t(path)]
@@ -139,7 +139,7 @@ contains
    end subroutine refuse_if_held
 
    !> Remove a lock if it still has this content: another run may have replaced it
-   subroutine take_away(path, text)
+   subroutine remove_if_unchanged(path, text)
       character(len=*), intent(in) :: path, text
       character(len=:), allocatable :: backup, found
       type(status_t) :: reading
@@ -151,7 +151,7 @@ contains
       done = .false.
       if (found /= text) done = move_new(backup, path)
       if (.not. done) done = remove_file(backup)
-   end subroutine take_away
+   end subroutine remove_if_unchanged
 
    !> Name of this machine
    function machine() result(name)

@@ -9,7 +9,7 @@ module ehl_folders
    implicit none (type, external)
    private
    public :: error_number
-   public :: name_t, list_folder, change_places, move_new, make_link, link_text, is_there, is_movable, spare_path
+   public :: name_t, list_folder, swap_paths, move_new, make_link, link_text, is_there, is_movable, spare_path
    public :: is_here, full_path, folder_above, lock_folder, make_parents, unlock_folder
 
    !> The name of a file or folder
@@ -165,22 +165,22 @@ contains
 
    !> Exchange two files or folders, in one step if the file system supports that. False: nothing
    !> has changed.
-   logical function change_places(one, other)
+   logical function swap_paths(one, other)
       character(len=*), intent(in) :: one, other
       character(len=:), allocatable :: backup
 
-      change_places = renamed(one, other, exchange)
-      if (change_places) return
+      swap_paths = renamed(one, other, exchange)
+      if (swap_paths) return
       backup = spare_path(one//".old")
       if (.not. rename_path(other, backup)) return
-      change_places = rename_path(one, other)
-      if (change_places) then
-         change_places = rename_path(backup, one)
+      swap_paths = rename_path(one, other)
+      if (swap_paths) then
+         swap_paths = rename_path(backup, one)
       else
-         change_places = rename_path(backup, other)
-         change_places = .false.
+         swap_paths = rename_path(backup, other)
+         swap_paths = .false.
       end if
-   end function change_places
+   end function swap_paths
 
    !> Rename a file or folder; false if the new name exists
    logical function move_new(from, to)

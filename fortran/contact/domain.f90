@@ -19,7 +19,7 @@ module ehl_domain
    use ehl_scales, only: circle_factor
    implicit none (type, external)
    private
-   public :: domain_t, flooded_by_default, layer_that_floods, needed_domain, domain_error, ratio_error
+   public :: domain_t, flooded_by_default, flooding_layer, needed_domain, domain_error, ratio_error
 
    !> inlet <= X <= outlet, -side <= Y <= side [a]
    type :: domain_t
@@ -221,7 +221,7 @@ contains
    end function domain_error
 
    !> Thickness of the oil layer that fills the gap downstream of a position X < 0
-   pure real(dp) function layer_that_floods(contact, point, x) result(layer)
+   pure real(dp) function flooding_layer(contact, point, x) result(layer)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
       real(dp), intent(in) :: x
@@ -234,7 +234,7 @@ contains
       else
          layer = layer + dry_gap(r)
       end if
-   end function layer_that_floods
+   end function flooding_layer
 
    !> Error of a friction ratio due to a relative error of H_c: the increase of friction by waves of a fixed height is about
    !> proportional to (height/film)^2, and exponential where they change the pressure strongly (docs/evidence/errors)

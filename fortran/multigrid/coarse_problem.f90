@@ -5,7 +5,7 @@
 !>    start         bar P = I P,   bar H = I H                                   p_start, h_start
 !>    film          H - H00 - K P = bar H - H00 - K bar P                        film_rhs
 !>    Reynolds      N(P, H) = N(bar P, bar H) + I (rhs - N)                      rhs
-!>    load          sum P = sum bar P + (load - sum P of the fine level)         pass_load_on
+!>    load          sum P = sum bar P + (load - sum P of the fine level)         restrict_load
 !>    correction    P <- P + interpolated (P - bar P) of the coarse level        p_change, h_change
 !>
 !> The coarse level stores the right-hand sides of film and Reynolds equation; the fine level's do not change.
@@ -17,7 +17,7 @@ module ehl_coarse_problem
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_level, only: cavity_pressure, change_flowing, level_t, stay_cavitated
-   use ehl_reynolds, only: pass_load_on, reynolds_operator, update_coefficients
+   use ehl_reynolds, only: restrict_load, reynolds_operator, update_coefficients
    use ehl_workspace, only: workspace_t
    implicit none (type, external)
    private
@@ -55,7 +55,7 @@ contains
       call update_coefficients(coarse)
       if (kind_of_coarsening == coarsening_alcouffe .and. all(step == 2)) call build_galerkin(fine, coarse, coarsening)
       call set_reynolds_rhs(fine, coarse, step, coarsening%transfer)
-      call pass_load_on(fine, coarse)
+      call restrict_load(fine, coarse)
    end subroutine restrict_problem
 
    !> Restrict the state of the fine level: pressure, film, and which nodes are cavitated or touch

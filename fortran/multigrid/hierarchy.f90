@@ -123,7 +123,7 @@ contains
          else
             call self%coarsest(k)%setup(level%grid, level%kernel_factor, status)
          end if
-         level%threads = threads_that_pay(level%grid, self%threads)
+         level%threads = useful_threads(level%grid, self%threads)
          call level%setup(status)
          call self%workspaces(k)%setup(level%grid, level%kernel_factor, level%threads, status)
          call new_deflection(self%engine, level%engine, status, level%grid)
@@ -178,11 +178,11 @@ contains
    end subroutine prepare_coarsening
 
    !> Number of threads on a grid: all, or one where synchronisation costs more than parallel loops save
-   pure integer function threads_that_pay(grid, threads)
+   pure integer function useful_threads(grid, threads)
       type(grid_t), intent(in) :: grid
       integer, intent(in) :: threads
-      threads_that_pay = merge(threads, 1, grid%nx*grid%ny >= parallel_from)
-   end function threads_that_pay
+      useful_threads = merge(threads, 1, grid%nx*grid%ny >= parallel_from)
+   end function useful_threads
 
    !> Error of the deflection, relative to its largest value, that stays below a tenth of the
    !> discretisation error of a piecewise-constant Hertz pressure (2.2e-4 at h = 1/128)

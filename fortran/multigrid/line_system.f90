@@ -64,7 +64,7 @@ contains
       logical :: any_touches
 
       call gather(level, dipole, rows, min(last + near_reach, level%grid%nx), work%fields)
-      if (level%supply%active) call carry(level, rows, last, work%fields)
+      if (level%supply%active) call apply_supply(level, rows, last, work%fields)
       call level%boundary%line_residuals(rows, last, level%rhs, level%mass_content, work%fields(:, f_residual, 1:last), &
                                          work%touching, any_touches)
       call eliminate(level, weights, near, near_dipole - near, last, work%fields, work%touching, any_touches, work%upper, &
@@ -125,7 +125,7 @@ contains
 
    !> Starved inlet (supply.f90): residuals with the transported oil, and no flow back to nodes that pass on all oil. The wedge
    !> term's factors stay those of a flooded inlet: the Poiseuille term is much larger there.
-   pure subroutine carry(level, rows, last, g)
+   pure subroutine apply_supply(level, rows, last, g)
       type(level_t), intent(in) :: level
       integer, intent(in) :: rows(line_width)
       !> Last node that may change
@@ -144,7 +144,7 @@ contains
             g(l, f_east_rate, i) = (1.0_dp - level%supply%passed_fraction)*g(l, f_east_rate, i)
          end do
       end do
-   end subroutine carry
+   end subroutine apply_supply
 
    !> Row i of a line couples the changes at nodes i-4 ... i+2; it is eliminated with the rows before
    !> it as soon as it is assembled, so that only the upper two diagonals are stored. Coefficients: see above.

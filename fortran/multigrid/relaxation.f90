@@ -130,7 +130,7 @@ contains
             change(2:furthest) = relaxation_factor*work%change(l, 2:furthest)
             if (limited) then
                slope(2:furthest) = level%flow%dlneps_dp(2:furthest, j, across)
-               if (time_step) call level%boundary%without_touching(2, j, slope(2:furthest))
+               if (time_step) call level%boundary%zero_touching(2, j, slope(2:furthest))
                call limit_changes(slope(2:furthest), max_log_change, change(2:furthest))
             end if
             do i = 2, furthest

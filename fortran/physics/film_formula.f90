@@ -4,7 +4,7 @@ module ehl_film_formula
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: film_central_formula, starved_film, starved_share
+   public :: film_central_formula, starved_film, starved_ratio
 
 contains
 
@@ -48,9 +48,9 @@ contains
 
    !> Central film of a point contact over the flooded one if the oil meniscus is at a distance m from the centre:
    !> ((m - 1)/(m* - 1))^0.29 with m* = 1 + 3.06 H^0.58 (Hamrock & Dowson 1977, part IV; at an ellipticity of 6)
-   pure real(dp) function starved_share(flooded, position) result(share)
+   pure real(dp) function starved_ratio(flooded, position) result(ratio)
       !> Flooded film [a^2/R_x], distance [a]
       real(dp), intent(in) :: flooded, position
-      share = min(1.0_dp, max(position - 1.0_dp, 0.0_dp)/(3.06_dp*flooded**0.58_dp))**0.29_dp
-   end function starved_share
+      ratio = min(1.0_dp, max(position - 1.0_dp, 0.0_dp)/(3.06_dp*flooded**0.58_dp))**0.29_dp
+   end function starved_ratio
 end module ehl_film_formula

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Grids of a plan
 submodule (ehl_plan) ehl_plan_grids
-   use ehl_domain, only: domain_t, layer_that_floods
+   use ehl_domain, only: domain_t, flooding_layer
    use ehl_grid, only: coarsest_most, find_levels, new_grid
    use ehl_grid_error, only: relative_errors
    use ehl_resolution, only: has_solution
@@ -64,7 +64,7 @@ contains
             plan%coarsest%ends = plan%contact%is_roller()
          end if
          plan%domain_error = domain_error(plan%contact, plan%point, domain_t(g%x_inlet, g%x_outlet, g%y_extent), plan%flooded, &
-                                        plan%starved .and. plan%layer <= layer_that_floods(plan%contact, plan%point, g%x_inlet))
+                                        plan%starved .and. plan%layer <= flooding_layer(plan%contact, plan%point, g%x_inlet))
       end associate
       grid = plan%coarsest
       plan%start = 0

@@ -74,7 +74,7 @@ module ehl_boundary_film
       procedure :: has_film
       procedure :: operator_row
       procedure :: residual_row
-      procedure :: without_touching
+      procedure :: zero_touching
       procedure :: set_lift
       procedure :: holds
       procedure :: bytes
@@ -370,12 +370,12 @@ contains
    end subroutine residual_row
 
    !> Set values of row j, from column `first` on, to 0 where a node touches: its equation has no conductance
-   pure subroutine without_touching(self, first, j, values)
+   pure subroutine zero_touching(self, first, j, values)
       class(boundary_film_t), intent(in) :: self
       integer, intent(in) :: first, j
       real(dp), contiguous, intent(inout) :: values(:)
       if (self%active) values = values*(1.0_dp - self%touching(first:first + size(values) - 1, j))
-   end subroutine without_touching
+   end subroutine zero_touching
 
    !> Set the largest lift of a touching node; residual: that of a steady problem (rms), or 0
    pure subroutine set_lift(self, residual)

@@ -50,7 +50,7 @@ module ehl_reynolds
    use ehl_wedge, only: wedge_reach
    implicit none (type, external)
    private
-   public :: balance_load, film_residual, flow_operator, load_excess, missing_load, pass_load_on, refresh, reynolds_operator, &
+   public :: balance_load, film_residual, flow_operator, load_excess, missing_load, restrict_load, refresh, reynolds_operator, &
              update_coefficients, update_residual
 
 contains
@@ -168,7 +168,7 @@ contains
          !$omp num_threads(level%threads) if(level%parallel) schedule(static)
          do j = 1, grid%ny
             eps = level%flow%eps(:, j, dir_x)
-            call level%boundary%without_touching(1, j, eps)
+            call level%boundary%zero_touching(1, j, eps)
             sums(j) = sum((level%residual(:, j)*wedge/(wedge + poiseuille*eps))**2) &
                       *level%grid%images(j)
          end do
@@ -251,11 +251,11 @@ contains
    end function load_excess
 
    !> Load of a coarse level: the missing load of the fine level, plus the load of the restricted pressure
-   subroutine pass_load_on(fine, coarse)
+   subroutine restrict_load(fine, coarse)
       type(level_t), intent(in) :: fine
       type(level_t), intent(inout) :: coarse
       coarse%load = missing_load(fine) + pressure_sum(coarse)
-   end subroutine pass_load_on
+   end subroutine restrict_load
 
    !> Correct a small relative error of the force balance by scaling the pressure inside the border (in line contacts the part
    !> above the border pressure) except at yielding nodes; H00 is adapted to keep the mean film under the pressure. Film

@@ -2,7 +2,7 @@
 !> Named results of the smooth contact, with their grid and domain errors
 module ehl_report_smooth
    use ehl_contact_results, only: contact_results_t
-   use ehl_film_formula, only: starved_share
+   use ehl_film_formula, only: starved_ratio
    use ehl_grid_error, only: single_grid_errors
    use ehl_kinds, only: dp, not_known, pi
    use ehl_level_result, only: extrapolated, limit_error, share_error, stated_errors
@@ -87,7 +87,7 @@ contains
       if (plan%starved .and. .not. plan%layer > 0.0_dp) then
          call record%set("inlet_position", -plan%finest%x0)
          if (.not. plan%contact%is_line()) call record%set("starvation_by_formula", &
-                                                           starved_share(plan%film_flooded, -plan%finest%x0))
+                                                           starved_ratio(plan%film_flooded, -plan%finest%x0))
       else if (plan%layer > 0.0_dp .and. plan%passages == 1) then
          call record%set("starvation_by_formula", plan%film_starved/plan%film_flooded)
       end if
