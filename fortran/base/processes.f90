@@ -36,8 +36,8 @@ contains
       process_is_there = error_number() == not_permitted
    end function process_is_there
 
-   !> Remove what killed processes have left beside a path, in folders `path//between//number`: files that may be removed, and the
-   !> folder if it is then empty
+   !> Remove what killed processes have left beside a path, in folders path//between//"-"//number: files that may be removed, and
+   !> the folder if it is then empty
    subroutine remove_left_over(path, between, list, may_remove)
       !> Absolute path without a final '/', and beginning of the suffix
       character(len=*), intent(in) :: path, between

@@ -30,7 +30,7 @@ contains
 
       p = [0.0_dp, y, z]
       mean = (y + 3.0_dp*z)/5.0_dp
-      ! limits the truncation error of the series below to rounding
+      ! this spread limits the truncation error of the series below to rounding
       spread = (0.25_dp*epsilon(1.0_dp))**(-1.0_dp/6.0_dp)*maxval(abs(mean - p))
       total = 0.0_dp
       power = 1.0_dp

@@ -83,7 +83,7 @@ contains
       call policy%begin(1.0e-4_dp, .true.)
       call policy%begin_attempt(3.0e-4_dp)
       call policy%after_cycle(2, .true., 3.0e-4_dp, 0.5e-4_dp, next)
-      call is_equal(next, step_continues, "one cycle more to measure")
+      call is_equal(next, step_continues, "one more cycle to measure")
       call policy%after_cycle(2, .true., 0.5e-4_dp, 0.1e-4_dp, next)
       call is_equal(next, step_ends, "and no more")
    end subroutine cheap_first_cycle
