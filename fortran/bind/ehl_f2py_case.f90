@@ -36,8 +36,8 @@ contains
       type(scales_t) :: scales
       type(operating_t) :: point
 
-      call take(input, line, roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
-                moes_m, moes_l)
+      call set_case(input, line, roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, &
+                    alpha, moes_m, moes_l)
       call find_contact(input, contact, scales, point)
       hertz_pressure = scales%pressure
       hertz_radius = scales%length
@@ -66,8 +66,8 @@ contains
       type(scales_t) :: scales
       type(operating_t) :: point
 
-      call take(input, line, roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
-                moes_m, moes_l)
+      call set_case(input, line, roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, &
+                    alpha, moes_m, moes_l)
       call find_contact(input, contact, scales, point)
       associate (grid => input%grid)
          grid%border = merge("flooded", "zero   ", border == 2)
@@ -86,8 +86,8 @@ contains
    end subroutine grid_defaults
 
    !> Set a contact from its code: 0 a point; 1 a line, with the load per length and its M and L; 2 a roller, with its own numbers
-   pure subroutine take(input, line, roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, &
-                        alpha, moes_m, moes_l)
+   pure subroutine set_case(input, line, roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, &
+                            viscosity, alpha, moes_m, moes_l)
       type(case_t), intent(inout) :: input
       integer(c_int), intent(in) :: line, si
       real(c_double), intent(in) :: roller(:)
@@ -96,7 +96,7 @@ contains
 
       input%contact%si = si /= 0
       if (line == 1) input%contact%shape = "line"
-      if (line == 2) call take_roller(input%contact, roller)
+      if (line == 2) call set_roller(input%contact, roller)
       input%contact%load_per_length = load
       input%contact%moes_m_line = moes_m
       input%contact%moes_l_line = moes_l
@@ -110,11 +110,11 @@ contains
       input%contact%moes_l = moes_l
       input%lubricant%viscosity = viscosity
       input%lubricant%pressure_viscosity = alpha
-   end subroutine take
+   end subroutine set_case
 
    !> Set a roller from its numbers: length and misalignment; for each body the index of its kind of profile, four parameters, the
    !> number of positions in its table, the positions and the drops
-   pure subroutine take_roller(contact, numbers)
+   pure subroutine set_roller(contact, numbers)
       type(contact_case_t), intent(inout) :: contact
       real(c_double), intent(in) :: numbers(:)
       character(len=11), parameter :: kinds(5) = [character(len=11) :: "none", "crown", "logarithmic", "chamfer", "file"]
@@ -130,7 +130,7 @@ contains
                                                  numbers(at + 5), numbers(at + 7:at + 6 + n), numbers(at + 7 + n:at + 6 + 2*n))
          at = at + 6 + 2*n
       end do
-   end subroutine take_roller
+   end subroutine set_roller
 
    !> Viscosity [Pa s], alpha [1/Pa] and -(d eta/dT)/eta [1/K] at the inlet from the law of &lubricant
    subroutine inlet(group, viscosity, alpha, slope, stat, key, message)

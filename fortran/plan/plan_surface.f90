@@ -160,7 +160,7 @@ contains
       if (why /= "") then
          call status%fail(ehl_bad_input, what//": error: the surface has to be prepared by pyehl: "//why//new_line("a")// &
                           "expected: 'pyehl run' in place of 'ehl'; or the tile that 'pyehl surface CASE.nml -o prepared.npy' "// &
-                          "writes, by the case prepared.npy.nml beside it")
+                          "writes, with the case prepared.npy.nml beside it")
       else if (s%length_x <= 0.0_dp .or. s%length_y <= 0.0_dp) then
          call status%fail(ehl_bad_input, what//": error: the size of the map is not known"//new_line("a")// &
                           "expected: "//group//".length_x and length_y [m]")
@@ -203,7 +203,7 @@ contains
       else if (abs(s%track) > 0.0_dp) then
          why = group//".track"
       else if (index(s%file, ".npy", back=.true.) /= len_trim(s%file) - 3) then
-         why = "it is no .npy array"
+         why = "it is not a .npy array"
       end if
    end subroutine map_needs
 
@@ -267,6 +267,6 @@ contains
       if (surfaces%max_unresolved(grid, aliased_below) < 1.0_dp) return
       call status%fail(ehl_bad_input, "all waves of the surface are shorter than two nodes of the grid of "// &
                        to_text(grid%nx)//" x "//to_text(grid%full_ny())//" nodes, in space or in the time steps: it resolves "// &
-                       "nothing of them"//new_line("a")//"expected: a finer grid (grid.points), or longer waves")
+                       "none of them"//new_line("a")//"expected: a finer grid (grid.points), or longer waves")
    end subroutine check_resolved
 end module ehl_plan_surface

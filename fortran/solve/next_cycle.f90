@@ -6,17 +6,17 @@ submodule (ehl_smooth_contact) ehl_next_cycle
    implicit none (type, external)
 
    !> Factors of the cycle limit. With solid contact: the edge of the solid contact needs several cycles to move by one node
-   integer, parameter :: touching_cycles = 3
+   integer, parameter :: solid_contact_cycles = 3
    !> Rollers: relaxation slowly removes the errors that coarse grids leave at the ends (47 to 89 cycles)
    integer, parameter :: roller_cycles = 4
    !> Starved contacts: the flow back from the contact and around it balances slowly
    integer, parameter :: starved_cycles = 3
    !> Lines with a fixed meniscus: each position needs several cycles
-   integer, parameter :: held_cycles = 10
+   integer, parameter :: meniscus_cycles = 10
    !> Cycle limit of a level with a reduced shear-thinning law
    integer, parameter :: softened_cycles = 20
    !> Smallest relative algebraic error that a reduced cycle reaches; a smaller one would cost another cycle
-   real(dp), parameter :: light_error = 3.0e-4_dp
+   real(dp), parameter :: reduced_error = 3.0e-4_dp
    !> The value of `near_solution` in the last attempt at a wide contact
    real(dp), parameter :: near_solution_wide = 0.5_dp
    !> Few cycles of a level that started from a coarser one, and from the Hertz pressure
@@ -35,11 +35,11 @@ contains
       self%max_cycles = self%options%max_cycles
       if (self%contact%is_roller()) self%max_cycles = roller_cycles*self%max_cycles
       if (is_end(self%options, self%n) .and. share_counts(self%options, self%m)) then
-         self%max_cycles = touching_cycles*self%max_cycles
+         self%max_cycles = solid_contact_cycles*self%max_cycles
       end if
       if (self%guard%shear_fraction < 1.0_dp) self%max_cycles = min(self%max_cycles, softened_cycles)
       if (self%options%layer > 0.0_dp) self%max_cycles = starved_cycles*self%options%max_cycles
-      if (self%meniscus%active) self%max_cycles = held_cycles*self%options%max_cycles
+      if (self%meniscus%active) self%max_cycles = meniscus_cycles*self%options%max_cycles
       if (self%guarded) call keep_state(self, level, status)
    end procedure begin_cycle
 
@@ -71,7 +71,7 @@ contains
       if (self%damped .or. self%guard%damping > 0) return
       if (self%options%second_cycle%full .eqv. self%options%cycle%full) return
       if (.not. has_coarser(self%results, self%n) .or. self%cycles /= 1) return
-      if (any(allowed_errors(self%options, self%results, self%n, self%m) < light_error*self%m%films())) return
+      if (any(allowed_errors(self%options, self%results, self%n, self%m) < reduced_error*self%m%films())) return
       options = self%options%second_cycle
       first = self%n == 2
       if (.not. first) first = .not. self%results(self%n - 2)%solved

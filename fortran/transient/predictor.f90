@@ -21,7 +21,7 @@ module ehl_predictor
       !> Number of extrapolations: of second order at the node, for stationary fields; of second order at the nodes upstream, for
       !> fields that move with each surface; of first order at the node
       integer, private :: candidates = 3
-      !> Weights of the candidates 2 and on, shape (nx, ny, candidates - 1); the first candidate has the rest
+      !> Weights from the second candidate on, shape (nx, ny, candidates - 1); the first candidate has the rest
       real(dp), allocatable :: weights(:, :, :)
       !> Squared errors of the candidates in the last step, weighted by their effect, shape (nx, ny, candidates)
       real(dp), allocatable, private :: error(:, :, :)
@@ -156,28 +156,28 @@ contains
       class(predictor_t), intent(inout) :: self
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
-      real(dp) :: across(level%grid%nx), q(level%grid%nx, self%candidates)
+      real(dp) :: sums(level%grid%nx), q(level%grid%nx, self%candidates)
       integer :: first, last, i, k, row
 
       first = 1 + reach
       last = level%grid%nx - reach
       do k = 1, self%candidates
-         across = 0.0_dp
+         sums = 0.0_dp
          do i = j - reach, merge(j + reach, min(j + reach, level%grid%ny), level%grid%periodic)
             row = level%grid%stored_row(i)
-            if (row >= 1) across = across + self%error(:, row, k)
+            if (row >= 1) sums = sums + self%error(:, row, k)
          end do
          do i = first, last
-            q(i, k) = 1.0_dp/(across(i - 2) + across(i - 1) + across(i) + across(i + 1) + across(i + 2) + min_error)
+            q(i, k) = 1.0_dp/(sums(i - 2) + sums(i - 1) + sums(i) + sums(i + 1) + sums(i + 2) + min_error)
          end do
       end do
-      across(first:last) = q(first:last, 1)
+      sums(first:last) = q(first:last, 1)
       do k = 2, self%candidates
-         across(first:last) = across(first:last) + q(first:last, k)
+         sums(first:last) = sums(first:last) + q(first:last, k)
       end do
-      across(first:last) = 1.0_dp/across(first:last)
+      sums(first:last) = 1.0_dp/sums(first:last)
       do k = 2, self%candidates
-         self%weights(first:last, j, k - 1) = q(first:last, k)*across(first:last)
+         self%weights(first:last, j, k - 1) = q(first:last, k)*sums(first:last)
       end do
    end subroutine compare
 end module ehl_predictor

@@ -126,7 +126,7 @@ def test_program_refuses_exports(tmp_path: Path, drive):
     size = f"length_x = {LENGTH} length_y = {LENGTH}"
     refused = drive("ehl", write_case(tmp_path / "case.nml", "map.txt", size), "-o", "none")
     assert refused.returncode == 2
-    assert "it is no .npy array" in refused.stderr
+    assert "it is not a .npy array" in refused.stderr
 
 
 @pytest.mark.parametrize(("numbers", "order"), [("f8", "C"), ("f4", "C"), ("f4", "F")])
