@@ -14,7 +14,7 @@ module ehl_f2py_functions
    use ehl_kinds, only: pi
    use ehl_lubricant, only: lubricant_t
    use ehl_memory, only: check_memory, free_bytes
-   use ehl_plan_heat, only: heat_plan_t, plan_given
+   use ehl_plan_heat, only: heat_plan_t, plan_known_film
    use ehl_read_case, only: read_case
    use ehl_result_folder, only: result_names
    use ehl_status, only: status_t
@@ -192,7 +192,7 @@ contains
       reason = 0
       estimate = 0.0_c_double
       call read_case(text, "the contact of a prediction", "", input, status)
-      if (.not. status%failed()) call plan_given(input, plan, lubricant, status)
+      if (.not. status%failed()) call plan_known_film(input, plan, lubricant, status)
       if (.not. status%failed()) then
          reason = plan%reason
          estimate = plan%estimate

@@ -31,7 +31,7 @@ module ehl_plan
    public :: plan_t, make_plan
 
    !> Largest number of time steps of a rough surface: by default, and if the case sets time.steps
-   integer, parameter :: max_steps = 100000, max_steps_asked_for = 1000000000
+   integer, parameter :: max_steps = 100000, max_steps_given = 1000000000
 
    !> Aspect ratio Y/X of the dry contact above which a restart is allowed on any grid, since cycles may alternate between two
    !> states
@@ -239,11 +239,11 @@ contains
 
       if (.not. plan%surfaces%move() .or. plan%duty%active) return
       associate (slowest => plan%surfaces%of(plan%surfaces%slowest()))
-         limit = merge(max_steps_asked_for, max_steps, plan%steps > 0)
+         limit = merge(max_steps_given, max_steps, plan%steps > 0)
          steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start)
          if (steps <= limit) then
             ! skipped steps are counted too
-            limit = max_steps_asked_for
+            limit = max_steps_given
             steps = steps_needed(plan%surfaces, plan%finest%hx, .false., plan%predicted_start)
             if (steps <= limit) return
          end if

@@ -18,7 +18,7 @@ module ehl_plan_heat
    use ehl_wall_heat, only: heat_source, speed_of_rest, wall_strength
    implicit none (type, external)
    private
-   public :: heat_plan_t, may_have_solid_contact, plan_contact, plan_heat, plan_given
+   public :: heat_plan_t, may_have_solid_contact, plan_contact, plan_heat, plan_known_film
 
    !> Relative change of the stress at the Hertz pressure below which frictional heating is neglected
    real(dp), parameter :: min_change = 1.0e-3_dp
@@ -121,7 +121,7 @@ contains
    end function may_have_solid_contact
 
    !> Heating and lubricant of a case whose pressure and film are known
-   subroutine plan_given(input, plan, lubricant, status)
+   subroutine plan_known_film(input, plan, lubricant, status)
       type(case_t), intent(in) :: input
       type(heat_plan_t), intent(out) :: plan
       type(lubricant_t), intent(out) :: lubricant
@@ -134,7 +134,7 @@ contains
 
       call plan_contact(input, contact, scales, point, sliding, lubricant, rho, film, status)
       if (.not. status%failed()) plan = plan_heat(input, contact, scales, sliding, lubricant, film)
-   end subroutine plan_given
+   end subroutine plan_known_film
 
    !> Contact, operating point, motion and lubricant of a case
    subroutine plan_contact(input, contact, scales, point, sliding, lubricant, rho, film, status)

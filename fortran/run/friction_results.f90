@@ -59,10 +59,10 @@ contains
          speed = abs(s%slide_to_roll)*s%mean_velocity
          if (ieee_is_finite(friction)) then
             if (run%is_rough()) then
-               call read_off(run, run%grid, run%p_smooth, run%h_smooth, speed, found)
+               call smooth_shear(run, run%grid, run%p_smooth, run%h_smooth, speed, found)
             else
                associate (level => run%hierarchy%levels(run%level()))
-                  call read_off(run, level%grid, level%p, gap(level), speed, found)
+                  call smooth_shear(run, level%grid, level%p, gap(level), speed, found)
                end associate
             end if
          end if
@@ -106,7 +106,7 @@ contains
    end subroutine find_friction
 
    !> Rolling moment, mean shear rate and maximum shear stress of the smooth contact with pressure p and film h
-   subroutine read_off(run, grid, p, h, speed, found)
+   subroutine smooth_shear(run, grid, p, h, speed, found)
       type(contact_run_t), intent(in) :: run
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: p(:, :), h(:, :)
@@ -118,7 +118,7 @@ contains
       if (.not. speed > 0.0_dp) return
       found%shear_rate = speed/run%plan%scales%film*mean_inverse(run%plan%contact, grid, h)
       found%shear_stress = max_stress(run%plan, p, h)
-   end subroutine read_off
+   end subroutine smooth_shear
 
    !> iint H/2 dP/dX, the moment of the Poiseuille flow on each surface, which resists rolling [p_h a^3]; a long inlet contributes
    !> much (Biboulet & Houpert 2010)

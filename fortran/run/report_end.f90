@@ -13,7 +13,7 @@ module ehl_report_end
 
    !> Nodes per wavelength needed by waves as high as the film (docs/limits.md); largest fraction of the variance in shorter waves
    integer, parameter :: enough_nodes = 32
-   real(dp), parameter :: little = 0.01_dp
+   real(dp), parameter :: max_short_waves = 0.01_dp
 
 contains
 
@@ -82,7 +82,7 @@ contains
       over = enough_nodes + 1
       do while (over - nodes > 1)
          middle = (nodes + over)/2
-         if (run%plan%surfaces%max_unresolved(run%grid, real(middle, dp)) > little) then
+         if (run%plan%surfaces%max_unresolved(run%grid, real(middle, dp)) > max_short_waves) then
             over = middle
          else
             nodes = middle

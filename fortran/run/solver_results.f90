@@ -4,7 +4,7 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_domain, only: ratio_error
    use ehl_friction_results, only: find_friction, friction_results_t
    use ehl_kinds, only: not_known
-   use ehl_level_result, only: film_errors, spike_grows
+   use ehl_level_result, only: film_errors, unresolved_spike
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_reason, only: reason_coarser_status, reason_few_positions, reason_moving_alone, reason_no_ratio, reason_none, &
                          reason_not_predicted, reason_not_wanted, reason_not_yet, reason_nothing_carried, reason_prediction, &
@@ -150,7 +150,7 @@ contains
       real(dp) :: change
 
       change = (ratio - self%run%coarser%ratio)/ratio
-      has_limit = abs(change) <= max_change .and. .not. spike_grows(self%run%smooth%results, self%run%smooth%n)
+      has_limit = abs(change) <= max_change .and. .not. unresolved_spike(self%run%smooth%results, self%run%smooth%n)
       if (self%run%plan%surfaces%same_on_grids()) has_limit = has_limit .and. change <= max_increase
    end function has_limit
 

@@ -3,7 +3,7 @@
 !> each with a version and a checksum, and replaced by renaming so that it is complete or absent. Each frame is written once, into
 !> its own file.
 module ehl_checkpoint
-   use ehl_duty_steps, only: kept_numbers
+   use ehl_duty_steps, only: state_size
    use ehl_files, only: file_exists, remove_file, rename_path
    use ehl_frames, only: frames_t
    use ehl_grid, only: grid_t
@@ -141,7 +141,7 @@ contains
 
       note = ""
       do k = 1, 2
-         state = what_is(prefix, state_files(k), self%head)
+         state = state_code(prefix, state_files(k), self%head)
          if (k == 1) self%newest = state
          if (state >= 0) exit
       end do
@@ -189,7 +189,7 @@ contains
       character(len=:), allocatable, intent(inout) :: fallback_reason
       type(status_t), intent(inout) :: status
       type(head_t) :: head
-      real(dp) :: row(history%n_columns()), values(3), outcome, numbers(kept_numbers)
+      real(dp) :: row(history%n_columns()), values(3), outcome, numbers(state_size)
       character(len=:), allocatable :: path
       character(len=256) :: reason
       integer :: lun, stat, k
@@ -231,7 +231,7 @@ contains
    end subroutine read_state
 
    !> Step of the state in a file if it is valid, otherwise the code of its fault
-   integer function what_is(prefix, name, head)
+   integer function state_code(prefix, name, head)
       character(len=*), intent(in) :: prefix, name
       type(head_t), intent(out) :: head
       integer :: lun, stat, k
@@ -239,16 +239,16 @@ contains
       character(len=len(magic)) :: version
       character(len=:), allocatable :: path
 
-      what_is = missing
+      state_code = missing
       if (.not. file_exists(prefix//name)) return
-      what_is = damaged
+      state_code = damaged
       call open_checksummed(prefix//name, "read", lun, status)
       if (status%failed()) return
       read (lun, iostat=stat) version
-      if (stat == 0 .and. version /= magic .and. index(version, family) == 1) what_is = other_version
+      if (stat == 0 .and. version /= magic .and. index(version, family) == 1) state_code = other_version
       close (lun)
       ! a damaged file may have any length
-      if (what_is == other_version) return
+      if (state_code == other_version) return
       if (.not. has_checksum(prefix//name)) return
       call open_checksummed(prefix//name, "read", lun, status)
       if (status%failed()) return
@@ -258,8 +258,8 @@ contains
          call name_frame(prefix, k, path)
          if (.not. has_checksum(path)) return
       end do
-      if (stat == 0) what_is = head%step
-   end function what_is
+      if (stat == 0) state_code = head%step
+   end function state_code
 
    !> Read the header of a state
    subroutine read_head(lun, head, stat)

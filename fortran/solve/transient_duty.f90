@@ -45,7 +45,7 @@ contains
          end associate
       end do
       self%reversed = self%now%mean_velocity() < 0.0_dp
-      call turn(self)
+      call mirror_fields(self)
    end procedure begin_duty
 
    module procedure settle
@@ -71,7 +71,7 @@ contains
 
       j = central_row(level%grid)
       call self%duty_steps%assess(self%duty, self%time_step, self%now%mean_velocity(), &
-                                 self%duty_error%worst(level%grid%columns(), level%h(:, j), &
+                                 self%duty_error%max_added(level%grid%columns(), level%h(:, j), &
                                                        self%duty_steps%before(self%time_step), half_width(self), j), good)
    end procedure assess_duty
 
@@ -100,7 +100,7 @@ contains
 
    module procedure end_duty
       if (.not. self%reversed) return
-      call turn(self)
+      call mirror_fields(self)
       self%reversed = .false.
       call mirror(level%p)
       call mirror(level%film_rhs)
@@ -108,7 +108,7 @@ contains
    end procedure end_duty
 
    !> Mirror the fields of the last steps if the flow is reversed
-   subroutine turn(self)
+   subroutine mirror_fields(self)
       class(transient_t), intent(inout) :: self
       integer :: k
 
@@ -126,5 +126,5 @@ contains
          call mirror(self%duty_error%films(:, :, k))
       end do
       call mirror(self%duty_error%error)
-   end subroutine turn
+   end subroutine mirror_fields
 end submodule ehl_transient_duty

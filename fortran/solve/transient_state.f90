@@ -29,7 +29,7 @@ module ehl_transient_state
    !> Largest relative errors of the force balance that scaling the pressure may correct: in general, and in lines. The larger one
    !> would remove the second order of small increases of friction on circles (tests/cases/test_two_surfaces.py), and bias the
    !> film under a duty.
-   real(dp), parameter :: small_load_error = 1.0e-5_dp, of_lines = 1.0e-4_dp
+   real(dp), parameter :: small_load_error = 1.0e-5_dp, small_line_error = 1.0e-4_dp
 
    !> Iteration of a time step
    type, extends(iteration_t) :: transient_t
@@ -235,7 +235,7 @@ contains
    pure logical function may_scale_load(self)
       class(transient_t), intent(in) :: self
       may_scale_load = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= &
-                       merge(of_lines, small_load_error, self%contact%is_line() .and. .not. self%duty%active)
+                       merge(small_line_error, small_load_error, self%contact%is_line() .and. .not. self%duty%active)
    end function may_scale_load
 
    !> Whether the step meets its tolerance

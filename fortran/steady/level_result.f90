@@ -7,7 +7,7 @@ module ehl_level_result
    implicit none (type, external)
    private
    public :: level_result_t, discretisation_error, film_errors, stated_errors, share_error, &
-             extrapolated, friction_error, limit_error, spike_grows
+             extrapolated, friction_error, limit_error, unresolved_spike
 
    !> Results of one level
    type :: level_result_t
@@ -127,16 +127,16 @@ contains
    end function friction_error
 
    !> Whether maximum pressure or friction integral do not converge over levels n - 2 to n, because of an unresolved pressure spike
-   pure logical function spike_grows(results, n)
+   pure logical function unresolved_spike(results, n)
       type(level_result_t), intent(in) :: results(:)
       integer, intent(in) :: n
 
-      spike_grows = .false.
+      unresolved_spike = .false.
       if (n < 3) return
       associate (r => results(n - 2:n))
-         if (all(r%solved)) spike_grows = limit_error(r%m%pressure_maximum) < 0.0_dp .or. limit_error(r%m%friction) < 0.0_dp
+         if (all(r%solved)) unresolved_spike = limit_error(r%m%pressure_maximum) < 0.0_dp .or. limit_error(r%m%friction) < 0.0_dp
       end associate
-   end function spike_grows
+   end function unresolved_spike
 
    !> H_c and H_min extrapolated from levels n and n-1, order 2
    pure function extrapolated(results, n) result(values)

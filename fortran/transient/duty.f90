@@ -62,7 +62,7 @@ module ehl_duty
       procedure :: end_time
       procedure :: length
       procedure :: reverses
-      procedure :: fastest
+      procedure :: max_speed
       procedure :: next_knot
       procedure :: steps_expected
       procedure, private :: raw
@@ -249,10 +249,10 @@ contains
    end function reverses
 
    !> Largest mean velocity over that of the case
-   pure real(dp) function fastest(self)
+   pure real(dp) function max_speed(self)
       class(duty_t), intent(in) :: self
-      fastest = maxval(abs(0.5_dp*(self%values(:, duty_u1) + self%values(:, duty_u2))))
-   end function fastest
+      max_speed = maxval(abs(0.5_dp*(self%values(:, duty_u1) + self%values(:, duty_u2))))
+   end function max_speed
 
    !> Approximate number of time steps on a mesh
    pure real(dp) function steps_expected(self, mesh)
@@ -262,7 +262,7 @@ contains
 
       time = self%begin()
       if (self%rests(self%constant_until)) time = max(time, self%constant_until)
-      steps_expected = (self%end_time() - time)*self%fastest()/(self%step_factor*mesh)
+      steps_expected = (self%end_time() - time)*self%max_speed()/(self%step_factor*mesh)
    end function steps_expected
 
    !> Times of the next two rows after a given time; huge after the last row

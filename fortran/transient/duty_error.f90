@@ -8,7 +8,7 @@ module ehl_duty_error
    public :: duty_error_t
 
    !> Distance upstream of the centre [half widths of the contact] beyond which the Poiseuille flow removes the error of a step
-   real(dp), parameter :: ahead = 1.25_dp
+   real(dp), parameter :: error_reach = 1.25_dp
    !> Number of previous films in the error estimate of a step
    integer, parameter :: films_before = 3
 
@@ -18,7 +18,7 @@ module ehl_duty_error
    contains
       procedure :: start
       procedure :: settle
-      procedure :: worst
+      procedure :: max_added
       procedure :: add
       procedure :: upstream
    end type duty_error_t
@@ -87,12 +87,12 @@ contains
    end function added
 
    !> Largest relative error of the film added by a step within the contact along row j
-   pure real(dp) function worst(self, x, film, steps, half_width, j)
+   pure real(dp) function max_added(self, x, film, steps, half_width, j)
       class(duty_error_t), intent(in) :: self
       real(dp), intent(in) :: x(:), film(:), steps(films_before), half_width
       integer, intent(in) :: j
-      worst = maxval(added(self, film, factors_of(steps), j)/film, mask=abs(x) <= half_width)
-   end function worst
+      max_added = maxval(added(self, film, factors_of(steps), j)/film, mask=abs(x) <= half_width)
+   end function max_added
 
    !> Accept a step: move the errors with the flow, towards larger X, and add that of the step
    subroutine add(self, x, film, steps, displacement, half_width)
@@ -112,7 +112,7 @@ contains
          before(1:) = self%error(:, j)
          self%error(:, j) = added(self, film(:, j), factors, j) + (1.0_dp - part)*before(1 - nodes:nx - nodes) &
                             + part*before(-nodes:nx - nodes - 1)
-         where (x < -ahead*half_width) self%error(:, j) = 0.0_dp
+         where (x < -error_reach*half_width) self%error(:, j) = 0.0_dp
          do k = films_before, 2, -1
             self%films(:, j, k) = self%films(:, j, k - 1)
          end do

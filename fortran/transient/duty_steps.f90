@@ -5,7 +5,7 @@ module ehl_duty_steps
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: duty_steps_t, kept_numbers
+   public :: duty_steps_t, state_size
 
    !> Smallest speed, over the largest, from which the step is computed
    real(dp), parameter :: min_speed = 0.1_dp
@@ -23,7 +23,7 @@ module ehl_duty_steps
    !> Largest step with a target error, over that from the mesh size
    real(dp), parameter :: max_step_factor = 4.0_dp
    !> Size of the saved state
-   integer, parameter :: kept_numbers = 5
+   integer, parameter :: state_size = 5
 
    type :: duty_steps_t
       !> Previous steps, the latest first; 0: none yet
@@ -57,7 +57,7 @@ contains
       integer :: k
 
       now = duty%at(time)
-      slow = min_speed*duty%fastest()
+      slow = min_speed*duty%max_speed()
       factor = duty%step_factor
       step = factor*mesh/max(slow, speed_of(now))
       if (self%steps(1) > 0.0_dp) then
@@ -103,7 +103,7 @@ contains
 
          before = [a%load, a%viscosity, a%layer, a%curvatures]
          after = [b%load, b%viscosity, b%layer, b%curvatures]
-         changes = abs(b%mean_velocity() - a%mean_velocity()) > max_change*duty%fastest() &
+         changes = abs(b%mean_velocity() - a%mean_velocity()) > max_change*duty%max_speed() &
                    .or. any(abs(after - before) > max_change*max(after, before))
       end function changes
    end function next
@@ -129,7 +129,7 @@ contains
       good = .true.
       self%next_factor = growth
       if (.not. duty%target_error > 0.0_dp) return
-      allowed = duty%target_error*max(min_fraction, step*max(abs(speed), min_speed*duty%fastest())/transit)
+      allowed = duty%target_error*max(min_fraction, step*max(abs(speed), min_speed*duty%max_speed())/transit)
       self%next_factor = min(growth, max(0.5_dp, 0.8_dp*(allowed/max(error, tiny(1.0_dp)))**(1.0_dp/3.0_dp)))
       good = error <= allowed .or. self%cuts >= max_error_cuts
    end subroutine assess
@@ -164,14 +164,14 @@ contains
    !> Store the state as numbers
    pure function pack_numbers(self) result(numbers)
       class(duty_steps_t), intent(in) :: self
-      real(dp) :: numbers(kept_numbers)
+      real(dp) :: numbers(state_size)
       numbers = [self%steps, self%next_factor, real(self%cuts, dp)]
    end function pack_numbers
 
    !> Restore the state from numbers
    pure subroutine unpack_numbers(self, numbers)
       class(duty_steps_t), intent(inout) :: self
-      real(dp), intent(in) :: numbers(kept_numbers)
+      real(dp), intent(in) :: numbers(state_size)
 
       self%steps = numbers(1:3)
       self%next_factor = numbers(4)

@@ -14,11 +14,11 @@ module ehl_step_accuracy
    !> Smallest increase assumed in steps that belong to no mean
    real(dp), parameter :: min_increase = 0.3_dp
    !> Time constant of the rms of the increase [steps]
-   real(dp), parameter :: memory = 64.0_dp
+   real(dp), parameter :: averaging_steps = 64.0_dp
    !> Interval of steps with an additional cycle that measures the sensitivity
    integer, parameter :: measured_steps = 30
    !> Decay of the largest sensitivity with each measurement
-   real(dp), parameter :: fading = 0.9_dp
+   real(dp), parameter :: decay = 0.9_dp
    !> Largest tolerance over `strict`
    real(dp), parameter :: max_tolerance_ratio = 40.0_dp
 
@@ -98,7 +98,7 @@ contains
 
       if (.not. residual_first > residual) return
       change = abs(friction_first - friction)/self%friction_smooth
-      self%sensitivity = max(change/(residual_first - residual), fading*self%sensitivity)
+      self%sensitivity = max(change/(residual_first - residual), decay*self%sensitivity)
    end subroutine learn
 
    !> Update the increase from the Newtonian friction of a step
@@ -106,6 +106,6 @@ contains
       class(step_accuracy_t), intent(inout) :: self
       real(dp), intent(in) :: friction
 
-      self%increase = self%increase + ((friction/self%friction_smooth - 1.0_dp)**2 - self%increase)/memory
+      self%increase = self%increase + ((friction/self%friction_smooth - 1.0_dp)**2 - self%increase)/averaging_steps
    end subroutine follow
 end module ehl_step_accuracy
