@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a command imports: modules that take long to load only where they are needed."""
 
+import shutil
 import subprocess
 import sys
 
@@ -11,38 +12,36 @@ HEAVY = {"matplotlib", "xarray", "pandas", "tqdm", "dask", "SurfaceTopography"}
 SCIPY = {"scipy.fft", "scipy.ndimage", "scipy.sparse", "scipy.special", "scipy.linalg"}
 
 INSIDE = """
-import sys
+import ast, sys
 from pyehl.cli import main
-assert main(sys.argv[1:]) == 0
-print("loaded:", *sys.modules)
+for words in ast.literal_eval(sys.argv[1]):
+    assert main(words) == 0
+    print("loaded:", *sys.modules)
 """
+PREDICT = ["predict", "table1.nml", "-o", "out", "--set", "psd.smooth=hertz"]
+"""Nothing is solved."""
+# in one process, each command may load more than those before it
+COMMANDS = [
+    (["--version"], HEAVY | SCIPY | {"numpy"}),
+    (["check", "quick.nml"], HEAVY | SCIPY),
+    (["run", "quick.nml", "-o", "run"], HEAVY | SCIPY),
+    ([*PREDICT, "--no-plots"], HEAVY | SCIPY),
+    (PREDICT, (HEAVY | SCIPY | {"matplotlib.pyplot"}) - {"matplotlib"}),
+]
 
 
 @pytest.mark.parametrize(
-    ("words", "absent"),
-    [
-        (["--version"], HEAVY | SCIPY | {"numpy"}),
-        (["run", "quick.nml", "-o", "out"], HEAVY | SCIPY),
-        (["check", "quick.nml"], HEAVY | SCIPY),
-        (["film", "table1.nml"], HEAVY),
-        (["predict", "table1.nml", "--no-plots", "-o", "out"], HEAVY | SCIPY),
-        (
-            ["predict", "table1.nml", "-o", "out"],
-            (HEAVY | SCIPY | {"matplotlib.pyplot"}) - {"matplotlib"},
-        ),
-    ],
-    ids=["version", "run", "check", "film", "predict without pictures", "predict"],
+    "commands", [COMMANDS, [(["film", "table1.nml"], HEAVY)]], ids=["in turn", "film"]
 )
-def test_heavy_modules_are_left_alone(cases, tmp_path, words, absent):
-    given = [str(cases / word) if word.endswith(".nml") else word for word in words]
-    if words[0] == "predict":
-        # nothing is solved
-        given += ["--set", "psd.smooth=hertz"]
+def test_heavy_modules_are_left_alone(cases, tmp_path, commands):
+    for name in ("quick.nml", "table1.nml"):
+        shutil.copy(cases / name, tmp_path)
     done = subprocess.run(
-        [sys.executable, "-P", "-c", INSIDE, *given],
+        [sys.executable, "-P", "-c", INSIDE, repr([words for words, _ in commands])],
         cwd=tmp_path, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
-    loaded = set(done.stdout.rpartition("loaded:")[2].split())
-    assert "pyehl.cli" in loaded
-    assert not loaded & absent
+    loaded = [line for line in done.stdout.splitlines() if line.startswith("loaded:")]
+    for (words, absent), line in zip(commands, loaded, strict=True):
+        assert "pyehl.cli" in line.split()
+        assert not set(line.split()) & absent, words
