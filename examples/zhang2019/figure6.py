@@ -166,12 +166,12 @@ def show(data: Deformed, references: References, level: Level) -> Result:
         Check(
             f"correlation of our prediction with the simulation, r <= {FRICTION:g} a",
             ours[0], 1.0, 0.05,
-            "0.95 or more", "the simulation above",
+            "0.95 or more", "simulation of this surface",
         ),
         Check(
             f"rms of our prediction over that of the simulation, r <= {FRICTION:g} a",
             ours[1], 1.0, None,
-            "the response is that of fine grids", "the simulation above",
+            "the response is that of fine grids", "simulation of this surface",
         ),
         Check.of("largest height, undeformed", before, references["fig6.largest"]),
         Check.of("largest height, deformed, by simulation", after,

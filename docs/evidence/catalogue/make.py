@@ -28,7 +28,8 @@ def lines() -> list[str]:
     """Give the table of what came of them, by kind."""
     rows = read()
     result = [
-        "| machines | drawn | refused | passed | contacts solved | converged | film over formula |",
+        "| machines | drawn | refused | passed | contacts solved | converged "
+        "| solved film over formula |",
         "|" + "---|" * 7,
     ]
     for kind in dict.fromkeys(row["machine"] for row in rows):

@@ -194,8 +194,8 @@ def measure_cells() -> None:
 def cells() -> list[str]:
     """Time on long cells over that on short ones, by L."""
     lines = [
-        "| L | contacts | no solution on long cells | faster on long cells | time over that on "
-        "short cells, median |",
+        "| L | contacts | no solution on long cells | faster on long cells | median ratio "
+        "of times, long over short cells |",
         "|---|---|---|---|---|",
     ]
     for low, high in pairwise((0.0, LOW, 10.0, 15.0)):

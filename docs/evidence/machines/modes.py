@@ -75,8 +75,8 @@ def lines() -> list[str]:
     """Make the table."""
     columns = [f"{c:g}" for c in CONDUCTANCES]
     result = [
-        "| cells | dipoles, rough in X or Y: ε/h_y² = "
-        f"{' / '.join(columns)} | rough in X | single changes, any: ε/h_x² = {SWITCH:g} "
+        "| cells | dipoles, short in X or Y: ε/h_y² = "
+        f"{' / '.join(columns)} | short in X | single nodes, any: ε/h_x² = {SWITCH:g} "
         f"| ε/h_y² = {SWITCH:g} |",
         "|---|---|---|---|---|",
     ]

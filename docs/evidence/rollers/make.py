@@ -35,7 +35,7 @@ PROFILES: dict[str, dict[str, float]] = {
 POINTS = 513
 REMEDIES = {
     "`log_amplitude` twice as large": "logarithmic deeper",
-    "logarithmic in place of another, twice the amplitude of ISO/TS 16281": ".* logarithmic",
+    "logarithmic profile instead, twice the amplitude of ISO/TS 16281": ".* logarithmic",
     "chamfer with twice the drop": "chamfer deeper",
     "half the misalignment": ".* half",
     "cells half as long along Y": ".* 257x.*",

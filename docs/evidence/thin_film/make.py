@@ -185,8 +185,8 @@ def lines() -> list[str]:
     """Give the table of predicted beside simulated."""
     known = {tuple(row[k] for k in KEYS[:3]): row for row in read("predicted.csv")}
     result = [
-        "| surface | speed [m/s] | flow | predicted | minimum film [nm] | nodes | simulated "
-        "| minimum film [nm] | maximum pressure [p_h] |",
+        "| surface | speed [m/s] | flow | predicted μ_r/μ_s | minimum film [nm] | nodes "
+        "| simulated μ_r/μ_s | minimum film [nm] | maximum pressure [p_h] |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
     for row in read("simulated.csv"):
