@@ -250,11 +250,11 @@ def _line_faults(keys: Keys, table: pd.DataFrame) -> list[str]:
     elastic = lines["regime"] == "elastic-piezoviscous"
     # the film of the result includes shear heating of the inlet
     if not (lines["h_min_m"] / film)[elastic].between(0.3, 1.01).all():
-        wrong.append("minimum film beside Dowson and Higginson")
+        wrong.append("minimum film differs from Dowson and Higginson")
     # Martin 1916
     film = 4.9 * flow / weight * lines["radius_m"]
     if not (lines["h_min_m"] / film)[lines["regime"] == "rigid-isoviscous"].between(0.9, 2.0).all():
-        wrong.append("minimum film beside Martin")
+        wrong.append("minimum film differs from Martin")
     return wrong
 
 

@@ -112,7 +112,7 @@ def measure(
     *,
     picture: bool = False,
 ) -> int:
-    """Run a script whose result goes into a JSON file, if requested, maybe beside a picture."""
+    """Run a script; with ``--output`` its result goes into a JSON file, and `picture` beside it."""
     made.add_argument("-o", "--output", type=Path, metavar="FILE.json", help="write JSON too")
     args = made.parse_args(words)
 

@@ -221,12 +221,12 @@ def main(words: Sequence[str] | None = None) -> int:
         "--shear-law",
         choices=LAWS,
         default="newtonian",
-        help="of all cases, each with a stress of its own (default: newtonian)",
+        help="of all cases, each with another stress (default: newtonian)",
     )
     made.add_argument(
         "--boundary-film",
         action="store_true",
-        help="all cases with one of a thickness of its own; needs a --shear-law",
+        help="all cases with a boundary film, each of another thickness; needs a --shear-law",
     )
     add_number(made, "jobs", 2, "worker processes", minimum=1)
     add_force(made)

@@ -13,7 +13,7 @@ from pyehl.studies.study import Axis, Study, Value, make
 from pyehl.theory.operating import OperatingPoint
 
 ROELANDS_Z = 0.6684
-"""Roelands z of waves, that of the second solver, which checks some; the default is 0.66841."""
+"""Roelands z of waves, as in the second solver, which recomputes some; the default is 0.66841."""
 GRIDS = (65, 129, 257)
 MAX_STEPS = {65: 400, 129: 300, 257: 200}
 """Maximum number of steps of a case by its grid, at which it is ended."""
@@ -85,7 +85,7 @@ def _with_layer(case: StressCase, generator: np.random.Generator) -> StressCase:
     values = dict(case.values)
     values["lubricant.boundary_film"] = float(f"{film:.3g}")
     values["lubricant.boundary_friction"] = float(f"{generator.uniform(0.05, 0.15):.3g}")
-    if values.get("solver.coarsening") == "alcouffe":  # a case with a layer refuses it
+    if values.get("solver.coarsening") == "alcouffe":  # not with a boundary film
         values["solver.coarsening"] = "auto"
     return replace(case, values=values)
 
@@ -129,7 +129,7 @@ def _one(family: str, generator: np.random.Generator, grids: Sequence[int]) -> S
 
 def _wave(case: StressCase, generator: np.random.Generator, *, at_rest: bool) -> dict[str, Value]:
     velocity = 0.0 if at_rest else float(generator.choice(VELOCITIES))
-    # the grid resolves waves of more than two nodes, in space and in time
+    # the grid resolves waves longer than two mesh sizes, in space and in time
     minimum = 2.2 * case.mesh
     along = [w for w in WAVELENGTHS if w > minimum * max(1.0, velocity)]
     across = [w for w in WAVELENGTHS if w > minimum]

@@ -49,7 +49,7 @@ def show(data: Spectrum, references: References, level: Level) -> Result:
         ),
         Check(
             "Hurst exponent from the slope of C_iso", data.hurst, hurst.value, 0.01,
-            "annuli have a width", f"p. {hurst.page}, {hurst.where}",
+            "finite width of the annuli", f"p. {hurst.page}, {hurst.where}",
         ),
     ]  # fmt: skip
     notes = [

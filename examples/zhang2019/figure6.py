@@ -206,8 +206,8 @@ def _notes_and_findings(
         f"Inside r <= {RADIUS:g} a: {ours_wide[0]:.3f} and {theirs_wide[0]:.3f}; "
         f"{ours_wide[1]:.3f} and {theirs_wide[1]:.3f}. Towards the sides the inlet is oblique, "
         "and the response has the normal of each line.",
-        f"The roughness that the predictions start from is that of the solver to "
-        f"{100 * data.at_node:.2g} % of its rms (what the grid does not resolve).",
+        f"The roughness of the predictions agrees with that of the solver within "
+        f"{100 * data.at_node:.2g} % of its rms (waves that the grid does not resolve).",
     ]
     findings = [
         Finding(

@@ -51,8 +51,8 @@ FULL = Level(
     meshes=(257, 513, 1025),
     surfaces=20,
     leaves_out=(
-        "nothing of the paper; what it does not give is left out: Fig. 7 beyond 513 x 513 nodes, "
-        "and error estimates by runs on coarser grids, but for Fig. 2 and Table 2"
+        "nothing of the paper; beyond it, Fig. 7 on more than 513 x 513 nodes, and error estimates "
+        "from coarser grids except for Fig. 2 and Table 2"
     ),
 )
 FILE = Path(__file__).with_name("zhang2019.csv")

@@ -81,7 +81,7 @@ def ball_bearing(machine: Machine) -> Bearing:
     if v.radial_load == v.axial_load == 0.0:
         machine.refuse("radial_load", "the bearing has no load", "a radial_load or axial_load [N]")
     if v.axial_load == 0.0 and v.contact_angle > 0.0:
-        what = "an angular-contact bearing without axial load: its rings come apart"
+        what = "an angular-contact bearing without axial load: the rings separate"
         machine.refuse("contact_angle", what, "an axial_load above 0, that of the preload at least")
     free = math.acos(1.0 - 0.5 * clearance / centres) if clearance > 0.0 < v.axial_load else 0.0
     shapes: list[tuple[float, Ellipse]] = []
@@ -167,7 +167,7 @@ def _check_rollers(machine: Machine) -> None:
         for key in ("axial_load", "roller_angle"):
             if getattr(v, key) > 0.0:
                 what = f"cylindrical rollers with {key} = {getattr(v, key):g}"
-                machine.refuse(key, what, "a contact_angle above 0, or none of it")
+                machine.refuse(key, what, f"a contact_angle above 0, or {key} = 0")
         return
     if 2.0 * v.roller_angle > v.contact_angle:
         what = f"a roller_angle of {v.roller_angle:g} deg leaves no cone on the inner ring"

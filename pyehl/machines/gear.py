@@ -132,7 +132,9 @@ def mesh_of(machine: Machine) -> Mesh:
     standard = 0.5 * m * sum(teeth)
     value = _involute(alpha) + 2.0 * sum(shifts) / sum(teeth) * math.tan(alpha)
     if value <= 0.0:
-        machine.refuse("profile_shift_2", "the profile shifts leave no mesh", "larger ones")
+        machine.refuse(
+            "profile_shift_2", "the gears do not mesh with these profile shifts", "larger ones"
+        )
     tight = standard * math.cos(alpha) / math.cos(_inverse_involute(value))
     distance = v.centre_distance or tight
     if distance < tight - TOLERANCE * m:

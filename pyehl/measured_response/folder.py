@@ -102,7 +102,7 @@ def response(
     Raises
     ------
     InputError
-        If the case is not acceptable, or the folder holds something else.
+        If the case is not valid, or the folder has other files.
     FileError
         If the folder cannot be written.
 

@@ -117,7 +117,7 @@ def _check_folder(place: Destination, settings: Settings, velocity_ratio: float)
             raise InputError(f"{path}: cannot be read ({error}); remove it") from error
         wrong = difference(result, json.loads(_identity(settings, velocity_ratio, tier)))
         if wrong:
-            message = f"{path}: is of another response; use another folder. It differs in"
+            message = f"{path}: belongs to another response; use another folder. It differs in"
             raise InputError("\n  ".join([message, *wrong]))
         done.append(tier)
     return done

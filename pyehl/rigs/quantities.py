@@ -92,5 +92,5 @@ def in_si(quantity: Quantity, cell: str, values: Array) -> Array:
     factors = FACTORS[quantity.unit]
     if unit not in factors:
         known = ", ".join(name for name in factors if name)
-        raise ValueError(f"expected: a unit in brackets behind the name, one of {known}")
+        raise ValueError(f"expected: a unit in brackets after the name, one of {known}")
     return np.asarray(values * factors[unit] - (KELVIN if unit == "K" else 0.0))

@@ -14,7 +14,7 @@ from pyehl.types import Array
 
 # Repeats: conditions with a relative difference below both SAME and NEARER times the typical gap
 SAME, NEARER = 0.03, 0.25
-# Minimum number of repeats whose own scatter is used; else the scatter of all is used
+# Minimum number of repeats whose own standard deviation is used; else that of all points is pooled
 MIN_REPEATS = 5
 
 

@@ -181,15 +181,15 @@ class History:
 
 
 def incomplete(loads: Loads) -> str:
-    """Say why the loads give no history of a whole passage; '' if they do."""
+    """Return why the loads do not cover a complete passage; '' if they do."""
     if not loads.times.size or loads.period > 0.0:
         return ""
     distance = abs(loads.velocity) * float(loads.times[-1] - loads.times[0])
     if distance >= MIN_DISTANCE:
         return ""
     return (
-        f"the {loads.times.size} instants of the run cover {distance:.2g} a of the way of the "
-        f"surface; mean and amplitude need {MIN_DISTANCE:g} a (output.frame_interval)"
+        f"during the {loads.times.size} instants of the run the surface moves {distance:.2g} a; "
+        f"mean and amplitude need {MIN_DISTANCE:g} a (output.frame_interval)"
     )
 
 

@@ -330,8 +330,8 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
     settings = settings_of(data)
     if settings["psd"]["reduction"] != "response":
         raise InputError(
-            "stress needs psd.reduction = 'response': the model of the paper has no pressure at "
-            "places of the contact"
+            "stress needs psd.reduction = 'response': the model of the paper has no distribution "
+            "of pressure"
         )
     operating = contact_of(settings)
     surfaces = tuple(

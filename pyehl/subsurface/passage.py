@@ -282,7 +282,7 @@ def near_surface(
             ),
         ]
         if above is not None:
-            meaning = f"share of the layer where the shear exceeds {above:g} Pa at some time{of}"
+            meaning = f"fraction of the layer where the shear exceeds {above:g} Pa at some time{of}"
             share = share_above(rows, depth)
             scalars.append((f"near_surface_share{end}", share, "1", meaning))
     if result.rough and predicted:

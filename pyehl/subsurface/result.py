@@ -356,7 +356,7 @@ def _dataset(loads: Loads, result: Profile) -> xr.Dataset:
     images = max(row.error for row in result.rows)
     pressure = loads.pressure_error
     error = images + (pressure * float(data.principal_shear_max) if pressure > 0.0 else 0.0)
-    of = "zeros around the load" + (" and pressure" if pressure > 0.0 else "; pressure: not known")
+    of = "periodic images" + (" and pressure" if pressure > 0.0 else "; pressure: not known")
     add("principal_shear_max_error", (), error, f"estimate of its error: {of}")
     if result.rough:
         ratio = float(data.principal_shear_max) / float(data.principal_shear_max_smooth)
@@ -374,13 +374,13 @@ def _dataset(loads: Loads, result: Profile) -> xr.Dataset:
 def _add_peak(
     data: xr.Dataset, loads: Loads, name: str, value: float, depth: float, peak: Peak
 ) -> None:
-    rows = [("", value, "Pa", "its largest value")]
+    rows = [("", value, "Pa", "largest value")]
     rows += [
-        (f"_{axis}", v, "m", f"{axis} of it")
+        (f"_{axis}", v, "m", f"{axis} of the largest value")
         for axis, v in zip(("depth", "x", "y"), (depth, peak.x, peak.y), strict=True)
     ]
     if math.isfinite(peak.time):
-        rows.append(("_time", peak.time, "s", "time of it"))
+        rows.append(("_time", peak.time, "s", "time of the largest value"))
     for end, number, unit, meaning in rows:
         _add(data, loads, f"{name}{end}", number, unit, meaning)
 

@@ -80,7 +80,7 @@ REMEDY = {"dust": "surface.outliers=6", "spikes": "surface.outliers=8"}
 MIN_DUST, MAX_DUST = 5, 0.02
 """Minimum number of pixels of a speck of dust (fewer: a spike), largest fraction of the map."""
 BLOCK = 32
-"""Pixels per side of the blocks with whose median dust is compared."""
+"""Pixels per side of the blocks; dust is compared with the median of its block."""
 MAX_LISTED = 3
 """Number of steps or specks that are reported one by one."""
 
@@ -155,7 +155,7 @@ def dust(z: Array, pixel: tuple[float, float], corner: tuple[float, float]) -> l
 def dust_points(z: Array, limit: float) -> Mask:
     """Mark dust on a levelled map, with a margin of one pixel.
 
-    Marked are specks of several pixels that stand out by more than `limit` standard deviations.
+    Dust are specks of several pixels that stand out by more than `limit` standard deviations.
     """
     points = np.zeros(z.shape, dtype=bool)
     specks, spread = _specks(z)
@@ -237,7 +237,7 @@ def _named(
         c + 0.5 * (b.start + b.stop) * p for c, b, p in zip(corner, first.box, pixel, strict=True)
     )
     number = f"{len(specks)} {noun}{'' if len(specks) == 1 else 's'}"
-    of = f"of {MIN_DUST} pixels or more" if kind == "dust" else "of fewer pixels than dust has"
+    of = f"of {MIN_DUST} pixels or more" if kind == "dust" else f"of fewer than {MIN_DUST} pixels"
     text = (
         f"{number} {of}, the highest {lengths.length(first.height)} "
         f"({first.height / spread:.0f} standard deviations) on {first.size} "
@@ -335,7 +335,7 @@ def _coarse(z: Array) -> Array:
 
 
 def _even(z: Array, form: Array, what: str) -> bool:
-    """Whether both halves of a map have the form of the whole, which those of a wave have not."""
+    """Whether both halves of a map have the form of the whole map, unlike those of a wave."""
     degree = DEGREES[what]
     for axis in (0, 1):
         across, bare = z.mean(axis=1 - axis), form.mean(axis=1 - axis)
@@ -351,7 +351,7 @@ def _even(z: Array, form: Array, what: str) -> bool:
 
 
 def _folds(z: Array, form: Array) -> bool:
-    """Whether a repeated map has a fold or step at its edges, which a wave has not."""
+    """Whether a repeated map has a fold or step at its edges, unlike a wave."""
     for axis in (0, 1):
         across, bare = z.mean(axis=1 - axis), form.mean(axis=1 - axis)
         n = across.size
@@ -408,8 +408,7 @@ def _lines(z: Array, axis: int) -> Finding | None:
     if not square > 0.0 or float(np.dot(about[:-1], about[1:])) / square > INDEPENDENT:
         return None
     along = "yx"[axis]
-    words = f"lines along {along} lie {lengths.length(size / math.sqrt(2.0))} rms above or below "
-    words += "each other"
+    words = f"lines along {along} are offset by {lengths.length(size / math.sqrt(2.0))} rms"
     if scatter > 0.0:
-        words += f", {size / scatter:.1f} times what the surface changes from one to the next"
+        words += f"; steps between lines are {size / scatter:.1f} times those of the surface"
     return Finding("line offsets", words, f"surface.align_lines={along}")

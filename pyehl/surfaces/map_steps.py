@@ -134,8 +134,8 @@ def _factors(heights: Array, degree: int, valid: Mask | None) -> tuple[Array, Ar
     matrix = np.array([[moments[a + c, b + d] for c, d in powers] for a, b in powers])
     if count < len(powers) or np.linalg.cond(matrix) > 1e12:
         raise InputError(
-            f"surface.detrend: {count} heights lie so that a polynomial of degree "
-            f"{degree} cannot be determined from them"
+            f"surface.detrend: the positions of {count} heights do not determine a polynomial of "
+            f"degree {degree}"
         )
     values = np.linalg.solve(matrix, [right[a, b] for a, b in powers])
     coefficient = np.zeros((degree + 1, degree + 1))
@@ -165,7 +165,7 @@ def level(heights: Array, what: str, valid: Mask | None = None) -> None:
     """Remove the mean (`centre`), plane (`tilt`) or `curvature` of a map in place.
 
     The polynomial is a least-squares fit to the `valid` points (default: all that are finite);
-    missing points stay missing. InputError if too few points determine the polynomial.
+    missing points stay missing. InputError if there are too few points for the polynomial.
     """
     # the mean is removed first, so that the rounding error is that of the remainder
     for degree in sorted({0, DEGREES[what]}):
@@ -425,8 +425,8 @@ def prominence(heights: Array) -> Array:
     # for a plane only rounding errors remain
     if not spread > 1e-12 * largest:
         raise InputError(
-            "surface.outliers: half of the map or more is flat to the last digit, so that there "
-            "is no spread to find spikes by; remove them in the program of the instrument"
+            "surface.outliers: at least half of the map is flat to the last digit: there is no "
+            "spread to compare spikes with; remove them in the program of the instrument"
         )
     above /= spread
     above[missing] = 0.0

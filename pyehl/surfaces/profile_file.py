@@ -322,7 +322,7 @@ def _finished(
     slope = float(np.sqrt(np.mean(np.square(np.diff(z))))) / spacing
     if slope > MAX_SLOPE:
         raise InputError(
-            f"{path}: an rms slope of {slope:.3g} is no surface: are places and heights in one "
+            f"{path}: an rms slope of {slope:.3g} is implausible: are positions and heights in one "
             f"unit? Points are {spacing:.3g} m apart\nexpected: surface.length_x [m], and "
             "surface.height_unit where the file names no unit"
         )
@@ -334,7 +334,7 @@ def _spaced(path: Path, x: Array, z: Array) -> tuple[Array, float, str]:
     steps = np.diff(x)
     if not np.all(steps > 0.0):
         k = int(np.argmin(steps > 0.0))
-        raise InputError(f"{path}: the places of the profile do not ascend behind point {k + 1}")
+        raise InputError(f"{path}: the positions of the profile do not ascend after point {k + 1}")
     spacing = float((x[-1] - x[0]) / (x.size - 1))
     even = x[0] + spacing * np.arange(x.size)
     # positions are often rounded to few digits

@@ -238,7 +238,7 @@ def _settle(header: Header, result: dict[tuple[str, int], set[float]]) -> None:
     """Accept the values that are stated unambiguously."""
     for (kind, side), values in list(result.items()):
         if len(values) > 1:
-            header.notes.append(f"the header states its {kind} in two ways: neither was taken")
+            header.notes.append(f"the header states two values of its {kind}: neither was used")
             del result[(kind, side)]
 
     def once(kind: str, side: int = 0) -> float | None:

@@ -80,7 +80,7 @@ class FilmEstimate:
 def hamrock_dowson(
     speed: float, material: float, load_number: float, ellipticity: float = 1.0
 ) -> tuple[float, float]:
-    """h_c/R_x and h_min/R_x [-], from U, G, W2 as `OperatingPoint` has them.
+    """h_c/R_x and h_min/R_x [-], from U, G, W2 as in `OperatingPoint`.
 
     Hamrock & Dowson 1977, J. Lubr. Technol. 99, 264-276; `ellipticity` is the semi-axis across the
     motion over that along it; they approximate it by 1.03 (R_y/R_x)^0.64.
@@ -92,7 +92,7 @@ def hamrock_dowson(
 
 
 def chittenden(speed: float, material: float, load_number: float) -> tuple[float, float]:
-    """h_c/R and h_min/R [-] of a circular contact, from U, G, W2 as `OperatingPoint` has them.
+    """h_c/R and h_min/R [-] of a circular contact, from U, G, W2 as in `OperatingPoint`.
 
     Chittenden, Dowson, Dunn & Taylor 1985, Proc. R. Soc. Lond. A 397, 245-269 and 271-294.
     """
@@ -151,7 +151,7 @@ def central_film(operating: OperatingPoint, lubricant: Lubricant) -> float:
 def outside(
     values: Mapping[str, float], bounds: Mapping[str, tuple[float, float]]
 ) -> tuple[str, ...]:
-    """Say which values lie outside their bounds, in words; empty when none does."""
+    """List the values outside their bounds, in words; empty when none is."""
     return tuple(
         f"{name} = {values[name]:.4g} outside {low:g} ... {high:g}"
         for name, (low, high) in bounds.items()

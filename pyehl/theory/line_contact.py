@@ -39,7 +39,7 @@ COMPARED = {"M": (3.0, 100.0), "L": (5.0, 10.0)}
 
 @dataclass(frozen=True, slots=True)
 class LineContact:
-    """An infinitely long contact under load, with what follows from it.
+    """An infinitely long contact under load, with its derived quantities.
 
     Attributes
     ----------
@@ -382,7 +382,7 @@ def regime(moes_m: float, moes_l: float) -> str:
 
 
 def dowson_higginson(speed: float, material: float, load_number: float) -> float:
-    """h_min/R [-] of a line, from U, G and W as `LineContact` has them.
+    """h_min/R [-] of a line, from U, G and W as in `LineContact`.
 
     Dowson 1968, Proc. Inst. Mech. Eng. 182 (3A), 151-167, after Dowson & Higginson.
     """

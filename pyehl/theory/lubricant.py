@@ -199,7 +199,7 @@ class Lubricant:
         )
 
     def beyond(self, pressure: float) -> str:
-        """Say which condition is outside the range of the constants at a pressure [Pa], or ''."""
+        """Return which conditions are outside the range of the constants at a pressure [Pa]."""
         low, high = self.range_temperature_min, self.range_temperature_max
         words = ""
         if low < high and not low <= self.temperature <= high:

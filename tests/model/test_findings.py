@@ -173,7 +173,7 @@ def test_spikes_are_found():
     z[64, 71:73] += 7e-7
     (finding,) = found(z)
     assert finding.kind == "spikes"
-    assert finding.text.startswith("2 spikes of fewer pixels than dust has, the highest")
+    assert finding.text.startswith("2 spikes of fewer than 5 pixels, the highest")
     assert prepare(scan(z), Options(outliers=8.0)).record.findings == ()
 
 
