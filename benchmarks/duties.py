@@ -45,8 +45,8 @@ COLUMNS = columns(
     "steps_covered:.3f worst_steps:.2f extremes:d extremes_covered:d worst_extreme:.2f"
 )
 MEANING = (
-    "seconds: of the processor, one thread; steps covered: fraction of instants at which the error "
-    "stated of h_c, h_min\nand p_max is at least the difference to half the time step; extremes: "
+    "seconds: of the processor, one thread; steps covered: fraction of instants at which the\n"
+    "stated error of h_c, h_min and p_max covers the difference to half the time step; extremes: "
     "compared with twice the nodes; worst: difference over error"
 )
 INLET_COLUMNS = columns(
@@ -210,7 +210,7 @@ def step_errors(result: xr.Dataset, half: xr.Dataset) -> tuple[float, float]:
 
 
 def shares_covered(result: xr.Dataset, half: xr.Dataset) -> dict[str, float]:
-    """Fractions of instants at which stated errors of friction and load share cover the steps'."""
+    """Fractions of instants at which the stated errors of friction and load share suffice."""
     covered = {}
     for name, error in (("mu", "mu_step_error"), ("load_share", "load_share_error")):
         if f"history_{name}" not in result or not np.isfinite(result[f"history_{name}"]).all():

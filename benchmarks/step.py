@@ -307,8 +307,8 @@ def main(words: Sequence[str] | None = None) -> int:
     add_list(made, "cases", USUAL, "; wave: of Fig. 2, fractal: of Table 1", names)
     made.add_argument("--scheme", choices=("narrow", "paper"), default="narrow")
     add_number(made, "steps", STEPS, "timed steps", minimum=1)
-    front = "X of the front of the roughness when the timed steps begin; that takes many steps on "
-    add_number(made, "front", FILLED, f"{front}fine grids where the contact is to be full")
+    front = "X of the front of the roughness when the timed steps begin; filling the contact takes "
+    add_number(made, "front", FILLED, f"{front}many steps on fine grids")
     made.add_argument(
         "--error",
         action="store_true",

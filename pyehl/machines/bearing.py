@@ -35,7 +35,7 @@ LIGHT_FRACTION = 0.5
 # Density of bearing steel [kg/m^3]
 DENSITY = 7800.0
 # rad/s per 1/min
-TURN = 2.0 * math.pi / 60.0
+RPM = 2.0 * math.pi / 60.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +82,7 @@ def ball_bearing(machine: Machine) -> Bearing:
         machine.refuse("radial_load", "the bearing has no load", "a radial_load or axial_load [N]")
     if v.axial_load == 0.0 and v.contact_angle > 0.0:
         what = "an angular-contact bearing without axial load: the rings separate"
-        machine.refuse("contact_angle", what, "an axial_load above 0, that of the preload at least")
+        machine.refuse("contact_angle", what, "an axial_load above 0, at least the preload")
     free = math.acos(1.0 - 0.5 * clearance / centres) if clearance > 0.0 < v.axial_load else 0.0
     shapes: list[tuple[float, Ellipse]] = []
     for name, sign in RINGS.items():
@@ -176,7 +176,7 @@ def _check_rollers(machine: Machine) -> None:
     if v.axial_load <= minimum * (1.0 + AXIAL_MARGIN):
         what = f"an axial load of {v.axial_load:g} N: tapered rollers push the rings apart"
         machine.refuse(
-            "axial_load", what, f"more than {minimum:.5g} N, that of preload or counter bearing"
+            "axial_load", what, f"more than {minimum:.5g} N, from preload or counter bearing"
         )
 
 
@@ -196,7 +196,7 @@ def _pitch(machine: Machine, element: float, count: int, elements: str) -> float
     if pitch == 0.0:
         if not (v.bore and v.outer_diameter):
             what = f"{machine.kind}.pitch_diameter is not given"
-            expected = "pitch_diameter, or bore and outer_diameter, whose mean it then is"
+            expected = "pitch_diameter, or bore and outer_diameter, of which it is the mean"
             machine.refuse("pitch_diameter", what, expected)
         pitch = 0.5 * (v.bore + v.outer_diameter)
     if v.bore and v.outer_diameter:
@@ -216,9 +216,9 @@ def _pitch(machine: Machine, element: float, count: int, elements: str) -> float
 
 
 def _speed(machine: Machine) -> float:
-    speed = TURN * abs(machine.values.inner_speed - machine.values.outer_speed)
+    speed = RPM * abs(machine.values.inner_speed - machine.values.outer_speed)
     if speed == 0.0:
-        what = "the rings do not turn against each other, and there is no film"
+        what = "the rings do not turn relative to each other: there is no film"
         machine.refuse("inner_speed", what, "inner_speed or outer_speed [1/min]")
     return speed
 
@@ -270,7 +270,7 @@ def _facts(
         displacement_axial_m=ring.axial,
         load_max_N=most,
         elements_loaded=int((ring.loads > 0.0).sum()),
-        centrifugal_force_N=DENSITY * volume * 0.5 * pitch * (TURN * cage) ** 2,
+        centrifugal_force_N=DENSITY * volume * 0.5 * pitch * (RPM * cage) ** 2,
     )
     if v.radial_load > 0.0:
         result.facts["load_max_Z_over_F"] = most * len(ring.loads) / v.radial_load

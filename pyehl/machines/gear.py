@@ -17,7 +17,7 @@ from pyehl.types import Array
 
 # Negative backlash that is tolerated, and tip thickness of a pointed tooth, over the module
 TOLERANCE = 1e-3
-TURN = 2.0 * math.pi / 60.0
+RPM = 2.0 * math.pi / 60.0
 # R_x/R_y below which the ellipticity far exceeds `MAX_ELLIPTICITY`
 MIN_RADIUS_RATIO = 1e-3
 # Distance of the stations beside B and D from them, over the base pitch
@@ -226,9 +226,9 @@ def gear_pair(machine: Machine) -> GearPair:
     v = machine.values
     mesh = mesh_of(machine)
     machine.wants("torque")
-    omega = TURN * abs(v.speed)
+    omega = RPM * abs(v.speed)
     if omega == 0.0:
-        machine.refuse("speed", "the gears do not turn, and there is no film", "speed [1/min]")
+        machine.refuse("speed", "the gears do not turn: there is no film", "speed [1/min]")
     ratio = v.teeth_1 / v.teeth_2
     force = v.torque / mesh.base[0]
     # a crowning height C_b at the ends of the face width b gives the radius b^2/(8 C_b)

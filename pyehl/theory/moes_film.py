@@ -73,18 +73,18 @@ def nijenbanning_venner_moes(moes_m: float, moes_l: float, shape: Ellipse = CIRC
 
 
 def inlet_viscosity_ratio(
-    moes_m: float, moes_l: float, share: float, shape: Ellipse = CIRCLE
+    moes_m: float, moes_l: float, film_ratio: float, shape: Ellipse = CIRCLE
 ) -> float:
-    """Viscosity over that of (M, L) [-] at which the formula gives `share` times the film.
+    """Viscosity over that of (M, L) [-] at which the formula gives `film_ratio` times the film.
 
     Shear heating of the inlet enters in this form: the film is that of the warmer oil. M and L are
-    those of the isothermal contact; share > 0.
+    those of the isothermal contact; film_ratio > 0.
     """
-    if share == 1.0:
+    if film_ratio == 1.0:
         return 1.0
-    wanted = share * nijenbanning_venner_moes(moes_m, moes_l, shape)
+    wanted = film_ratio * nijenbanning_venner_moes(moes_m, moes_l, shape)
     # the film grows at least as viscosity^0.4, which bounds the logarithm of the ratio
-    low, high = sorted((2.5 * math.log(share), 0.0))
+    low, high = sorted((2.5 * math.log(film_ratio), 0.0))
     for _ in range(60):
         middle = 0.5 * (low + high)
         ratio = math.exp(middle)
