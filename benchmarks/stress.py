@@ -28,7 +28,7 @@ from pyehl.types import Row
 
 STRICT = {"solver.accuracy": 0.005, "solver.max_cycles": 200}
 """Settings of the stricter run."""
-HIGHEST = 1.0
+MAX_AMPLITUDE = 1.0
 """Largest surface.amplitude that a case may have [a^2/R]."""
 KEPT = (
     *("status", "points", "restarts", "steps", "cycles_per_step", "cycles", "rough_cycles"),
@@ -131,7 +131,7 @@ def _outcome(row: Mapping[str, Any]) -> str:
 
 def _is_high(row: Mapping[str, Any]) -> bool:
     """Whether an amplitude exceeds the range of surface.amplitude and must be given over H_c."""
-    return row["amplitude"] is not None and row["amplitude"] > HIGHEST
+    return row["amplitude"] is not None and row["amplitude"] > MAX_AMPLITUDE
 
 
 def _check(

@@ -107,8 +107,8 @@ def show(data: Flow, references: References, level: Level) -> Result:
     ]  # fmt: skip
     factor = 16.0
     notes = [
-        "Eqs 9 and 12 both print the factor 4/(NxNy). Only one 1/(NxNy) between them gives the "
-        f"surface back, as the check shows; as printed it would come back {factor:g}/(NxNy) = "
+        "Eqs 9 and 12 both print the factor 4/(NxNy). Only a single factor 1/(NxNy) restores the "
+        f"surface, as the check shows; as printed it would become {factor:g}/(NxNy) = "
         f"{factor / np.prod(tile.shape):.2g} times as high. Eq. 10 prints |rr_q|: without its "
         f"phase this surface is one symmetric peak, {data.without_phase:.0f} times as high as its "
         f"rms height; it is {np.abs(tile.heights).max() / tile.rms_height:.1f} times that with it."

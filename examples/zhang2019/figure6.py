@@ -205,7 +205,7 @@ def _notes_and_findings(
         f"{theirs[0]:.3f}; rms over that of the simulation {ours[1]:.3f} and {theirs[1]:.3f}. "
         f"Inside r <= {RADIUS:g} a: {ours_wide[0]:.3f} and {theirs_wide[0]:.3f}; "
         f"{ours_wide[1]:.3f} and {theirs_wide[1]:.3f}. Towards the sides the inlet is oblique, "
-        "and the response has the normal of each line.",
+        "and the response uses the normal of the edge at each line.",
         f"The roughness of the predictions agrees with that of the solver within "
         f"{100 * data.at_node:.2g} % of its rms (waves that the grid does not resolve).",
     ]

@@ -70,15 +70,15 @@ class Prepared:
         rough = rough_groups(self.films[0].settings)
         if run == "predict" and not rough:
             raise InputError(
-                "run = 'predict': both surfaces are smooth\nexpected: a finish of &surface, which "
-                "is on the elements or the pinion, or of &second_surface; or run = 'solve'"
+                "run = 'predict': both surfaces are smooth\nexpected: a finish in &surface (the "
+                "elements or the pinion) or in &second_surface; or run = 'solve'"
             )
         self.tasks = TaskList()
         numbers: dict[str, int] = {}
         self.number: list[int | None] = []
         for one in self.films:
             if run == "film" or not one.is_solvable:
-                what = f"{one.contact.place}: its film is by formulas of flooded contacts"
+                what = f"{one.contact.place}: formulas of flooded contacts give its film"
                 expected = "run = 'solve' and contacts that the solver takes, or no &inlet"
                 refuse_inlet(one.settings, what, expected)
                 self.number.append(None)
@@ -208,7 +208,7 @@ def bearing(
     case
         Path of a file with ``&ball_bearing`` or ``&roller_bearing``; without it the options alone.
     *options
-        Values that replace those of the file, as of `Case`.
+        Values that replace those of the file, as in `Case`.
     run
         'film': formulas, at once; 'solve': smooth contacts; 'predict': with the roughness.
     output
@@ -265,9 +265,9 @@ def gear(
     case
         Path of a file with ``&spur_gear``; without it the options alone.
     *options
-        Values that replace those of the file, as of `Case`.
+        Values that replace those of the file, as in `Case`.
     run, output, force, jobs, scheduler, **groups
-        As of `bearing`.
+        As in `bearing`.
 
     Returns
     -------

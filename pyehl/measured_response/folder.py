@@ -80,7 +80,7 @@ def response(
     case
         A case, or the path of a case file: its contact, lubricant and `surface.velocity_ratio`.
     *options
-        Values that replace those of the case, as of `Case`.
+        Values that replace those of the case, as in `Case`.
     output
         Result folder, as ``pyehl response -o`` writes it; runs that it already holds are not
         repeated. None: nothing is kept on disk.

@@ -10,7 +10,7 @@ import numpy as np
 
 from pyehl.types import Array
 
-KELVIN = 273.15
+ZERO_CELSIUS = 273.15
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,4 +93,4 @@ def in_si(quantity: Quantity, cell: str, values: Array) -> Array:
     if unit not in factors:
         known = ", ".join(name for name in factors if name)
         raise ValueError(f"expected: a unit in brackets after the name, one of {known}")
-    return np.asarray(values * factors[unit] - (KELVIN if unit == "K" else 0.0))
+    return np.asarray(values * factors[unit] - (ZERO_CELSIUS if unit == "K" else 0.0))

@@ -76,7 +76,7 @@ def in_memory(surface: Surface, group: Mapping[str, Any], name: str = "surface")
             heights_of(numbers)
         if s.kind not in ("map", "fractal") or not all(size):
             raise InputError(
-                "heights are given, and the case does not say their size\n"
+                "heights are given, and the case does not state their size\n"
                 f"expected: {name}.kind = 'map' or 'fractal' with {name}.length_x and length_y, "
                 "or pyehl.Topography(heights, size)"
             )
@@ -201,7 +201,7 @@ def gather(
             continue
         if settings.get(group, {}).get("kind") not in ("map", "fractal"):
             raise InputError(
-                "heights are given, and the surface of the case is not one of heights\n"
+                "heights are given, and the surface of the case is not a height map\n"
                 f"expected: {group}.kind = 'map' or 'fractal'"
             )
         made = tiles[group].preparation if group in tiles else None

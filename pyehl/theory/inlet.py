@@ -51,15 +51,15 @@ def at_inlet(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex
     n, place = x.size, x.size - 1 - last
     slip = qx * (velocity_ratio - 1.0)
     nodes, middles = Flow(zone, x), Flow(zone, x[:-1] + 0.5 * h)
-    yielding = wave_flattening(zone, qx, qy, slip, x)
+    flattening = wave_flattening(zone, qx, qy, slip, x)
     one = np.eye(n)
-    held = yielding + np.diag(nodes.compressibility * nodes.film)
+    loss = flattening + np.diag(nodes.compressibility * nodes.film)
     mean = 0.5 * (one[1:] + one[:-1])
     turned = 1j * qx[:, np.newaxis, np.newaxis]
     change = (one[1:] - one[:-1]) / h + turned * mean
     softening = middles.gradient * middles.softening
     bending = middles.gradient * middles.power / middles.film
-    flow = bending[:, np.newaxis] * (mean @ yielding)
+    flow = bending[:, np.newaxis] * (mean @ flattening)
     flow += middles.along[:, np.newaxis] * change + softening[:, np.newaxis] * mean
     # D F at the inner nodes; the last node takes that of its neighbour
     inner = np.arange(n - 2)
@@ -69,13 +69,13 @@ def at_inlet(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex
     spread[:, -1] = spread[:, -2]
     convected = convected_by(n, h, slip) * nodes.density
     leak = (nodes.across * np.square(qy)[:, np.newaxis])[:, :, np.newaxis] * one
-    system = spread @ flow - leak - convected @ held
+    system = spread @ flow - leak - convected @ loss
     right = spread @ bending - convected.sum(-1)
     # no pressure wave at the start
     system[:, 0], right[:, 0] = one[0], 0.0
     pressure = np.linalg.solve(system, right[..., np.newaxis])[..., 0]
-    kept = 1.0 - np.einsum("mi,mi->m", held[:, place], pressure)
-    return np.asarray(kept * np.exp(-1j * slip * (INLET + 1.0)))
+    transfer = 1.0 - np.einsum("mi,mi->m", loss[:, place], pressure)
+    return np.asarray(transfer * np.exp(-1j * slip * (INLET + 1.0)))
 
 
 def wave_flattening(zone: Zone, qx: Array, qy: Array, slip: Array, x: Array) -> Complex:

@@ -133,7 +133,7 @@ def inlet_base(
 ) -> Complex:
     """1 - w + w B: the factor of G on the centre line from the transport equation [-].
 
-    Parameters as of `inlet_transfer`; `spacing` as of :func:`pyehl.theory.transport.transport`.
+    Parameters as in `inlet_transfer`; `spacing` as in :func:`pyehl.theory.transport.transport`.
     """
     kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
     weight = 1.0 / (1.0 + (_nabla_2(np.hypot(kx, ky), moes) / SHORT) ** 3)
@@ -154,7 +154,7 @@ def inlet_fit(
 ) -> Complex:
     """F = G/(1 - w + w B): the fitted factor of G [-].
 
-    Parameters as of `inlet_transfer`.
+    Parameters as in `inlet_transfer`.
     """
     cosine, sine, sharpness = _normal(y, ellipticity)
     # M and L for the gap next to the edge and the velocity along the normal

@@ -165,28 +165,28 @@ class _Waves:
     def at(self, flow: Flow, i: int) -> tuple[Complex, Complex, Complex, Complex]:
         """Return a, b, t, s of mu' = a mu + b and T = t mu + s at position i."""
         e, h, rho, k = flow.along[i], flow.film[i], flow.density[i], self.k
-        held = flow.compressibility[i] * h
+        bulk = flow.compressibility[i] * h
         soft, slope, gradient = flow.softening[i], flow.slope[i], flow.gradient[i]
         leak = flow.across[i] * self.squared + (e - flow.across[i]) * self.squared_along
         by_pressure = leak - self.turned * (slope + soft * gradient)
         bending = flow.power[i] / h * gradient
         by_film = bending * self.turned
         by_change = -slope - (2.0 * e) * self.turned - soft * gradient
-        share = 1.0 / (1.0 + k * held)
+        factor = 1.0 / (1.0 + k * bulk)
         # first with constant amplitude, then with its change along X
-        t, s = share / rho + 0j, k * held * share + 0j
-        p, r = -k * t, k * share + 0j
+        t, s = factor / rho + 0j, k * bulk * factor + 0j
+        p, r = -k * t, k * factor + 0j
         for change in (self.changing, None):
-            left = 1.0 - by_change * p - bending * t
-            whole = self.slip + by_pressure * p + by_film * t
-            # the root of e p a^2 + left a = whole that tends to whole/left for a small leak
-            root = 2.0 / (left + np.sqrt(left * left + (4.0 * e) * p * whole))
-            a = whole * root
+            linear = 1.0 - by_change * p - bending * t
+            constant = self.slip + by_pressure * p + by_film * t
+            # e p a^2 + linear a = constant, the root constant/linear in the limit of a small leak
+            root = 2.0 / (linear + np.sqrt(linear * linear + (4.0 * e) * p * constant))
+            a = constant * root
             b = (by_pressure * r + by_film * s) * root
             if change is not None:
-                up, steady = change * (t * a), change * (t * b)
-                t, s = share * (1.0 / rho + held * up), share * (held * (k + steady))
-                p, r = up - k * t, steady + k - k * s
+                growth, steady = change * (t * a), change * (t * b)
+                t, s = factor * (1.0 / rho + bulk * growth), factor * (bulk * (k + steady))
+                p, r = growth - k * t, steady + k - k * s
         return a, b, t, s
 
 
@@ -233,20 +233,20 @@ def upstream(
         a, b, _, _ = waves.at(flow, i)
         if i == 0:
             np.divide(-b, a, out=mu, where=a != 0.0)
-        grown, way = _grown(a * h)
-        mu = mu * grown + (b * h) * way
+        growth, mean_growth = _growth(a * h)
+        mu = mu * growth + (b * h) * mean_growth
     back = np.exp(-waves.slip * (INLET + 1.0))
     return np.asarray(mu * back / np.interp(INLET, zone.x, zone.density))
 
 
-def _grown(turn: Complex) -> tuple[Complex, Complex]:
+def _growth(turn: Complex) -> tuple[Complex, Complex]:
     """exp(t) and (exp(t) - 1)/t."""
-    grown = np.exp(turn)
+    growth = np.exp(turn)
     still = np.abs(turn) < 1e-6
     turn[still] = 1.0
-    way = (grown - 1.0) / turn
-    way[still] = 1.0
-    return grown, way
+    mean_growth = (growth - 1.0) / turn
+    mean_growth[still] = 1.0
+    return growth, mean_growth
 
 
 def transport(
@@ -272,9 +272,9 @@ def transport(
     for i, h in enumerate(lengths):
         a, b, _, _ = waves.at(flow, i)
         # exact for coefficients that are constant over the step
-        grown, way = _grown(a * h)
-        free *= grown
-        driven = driven * grown + (b * h) * way
+        growth, mean_growth = _growth(a * h)
+        free *= growth
+        driven = driven * growth + (b * h) * mean_growth
         for j in np.flatnonzero(ends == i + 1):
             _, _, t, s = waves.at(there, int(j))
             back = np.exp(-waves.slip * (stations[j] - INLET))
