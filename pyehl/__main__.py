@@ -8,16 +8,16 @@ import sys
 
 from pyehl.cli import main
 
-MANY = 500_000
-"""New objects after which the garbage collector looks for cycles: pictures have many that stay."""
+GC_THRESHOLD = 500_000
+"""New objects before a run of the garbage collector: figures hold many long-lived objects."""
 
 
 def program() -> int:
-    """Run the command line in a process of its own; gives its exit status."""
+    """Run the command line as a program; returns its exit status."""
     # products of small matrices are slower on several threads
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    gc.set_threshold(MANY)
-    # at the end there is nothing to collect: the process gives its memory back
+    gc.set_threshold(GC_THRESHOLD)
+    # no collection at exit: the operating system frees the memory
     atexit.register(gc.freeze)
     return main()
 

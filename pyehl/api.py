@@ -44,16 +44,16 @@ def solve(
     case
         A case, or the path of a case file.
     *options
-        Values that replace those of the case, as of `Case`.
+        Values that replace those of the case, as for `Case`.
     surface, second_surface
         Rough surfaces in place of those of the case: a `Topography`, or an array of heights [m] of
         shape (nx, ny), peaks positive, with the size of the case. Keys that prepare a map do not
         apply to them. They are written beside the results.
     output
         Result folder, as ``pyehl run -o`` writes it, with checkpoints of a transient run beside
-        it; None: nothing is kept on disk.
+        it; None: no files are written.
     force
-        Other files may be in the result folder; they stay.
+        Accept other files in the result folder; they stay.
     check
         Raise `NotConverged` if there is no solution.
     progress
@@ -110,7 +110,7 @@ def solve(
         )
         if outcome.interrupted:
             raise KeyboardInterrupt
-        # xarray takes long to import, and most functions do without it
+        # importing xarray is slow, and most functions do not need it
         from pyehl.results import load  # noqa: PLC0415
 
         data = load(output)
@@ -138,18 +138,18 @@ def predict(
     case
         A case, or the path of a case file.
     *options
-        Values that replace those of the case, as of `Case`.
+        Values that replace those of the case, as for `Case`.
     surface, second_surface
-        As of `solve`.
+        As in `solve`.
     smooth
         Result folder with the smooth contact (of `solve`, or under a transient run); without it the
-        contact is solved on the spot.
+        contact is solved first.
     tracks
         Tracks across the surface, for mean and spread of mu_r/mu_s.
     output
-        Result folder, as ``pyehl predict -o`` writes it; None: nothing is kept on disk.
+        Result folder, as ``pyehl predict -o`` writes it; None: no files are written.
     force
-        Other files may be in the result folder; they stay.
+        Accept other files in the result folder; they stay.
     plots
         Whether the folder gets the pictures.
 
@@ -212,13 +212,13 @@ def film(case: Case | str | os.PathLike[str], *options: Option) -> FilmThickness
     case
         A case, or the path of a case file.
     *options
-        Values that replace those of the case, as of `Case`.
+        Values that replace those of the case, as for `Case`.
 
     Returns
     -------
     FilmThickness
-        With ``formulas``, one dict for each with h_c_m and h_min_m [m], and ``summary``, what
-        ``pyehl film --json`` prints; shown as the page of ``pyehl film``.
+        With ``formulas``, a dict for each with h_c_m and h_min_m [m], and ``summary``, the output
+        of ``pyehl film --json``; its repr is the output of ``pyehl film``.
 
     Raises
     ------
@@ -243,7 +243,7 @@ def film(case: Case | str | os.PathLike[str], *options: Option) -> FilmThickness
 
 @dataclass(frozen=True, slots=True, repr=False)
 class CheckedCase:
-    """A case that can be solved, and how; its repr is what ``pyehl check`` prints.
+    """A valid case and the plan of its solution; its repr is the output of ``pyehl check``.
 
     Attributes
     ----------
@@ -262,19 +262,19 @@ class CheckedCase:
 
 
 def check(case: Case | str | os.PathLike[str], *options: Option) -> CheckedCase:
-    """Describe a case with every value, and how it would be solved; solves nothing.
+    """Complete a case and plan its solution, without solving it.
 
     Parameters
     ----------
     case
         A case, or the path of a case file.
     *options
-        Values that replace those of the case, as of `Case`.
+        Values that replace those of the case, as for `Case`.
 
     Returns
     -------
     CheckedCase
-        With ``case`` and ``plan``; shown as ``pyehl check`` prints it.
+        With ``case`` and ``plan``; its repr is the output of ``pyehl check``.
 
     Raises
     ------

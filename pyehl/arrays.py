@@ -18,8 +18,8 @@ from pyehl.types import Array
 def read_array(path: Path) -> Array:
     """Read an array that pyehl has written.
 
-    NoMemoryError if it does not fit into the memory, nothing is read then; FileError if it cannot
-    be read, or is damaged.
+    NoMemoryError, before reading, if it does not fit into memory; FileError if it cannot be read
+    or is damaged.
     """
     try:
         library.check_memory(f"{path}: an array of this length", path.stat().st_size)
@@ -31,14 +31,14 @@ def read_array(path: Path) -> Array:
     except OSError as error:
         raise FileError(f"{path}: cannot read: {error.strerror or error}") from error
     except Exception as error:
-        # a damaged header makes numpy raise whatever the parser of Python does
+        # with a damaged header numpy raises any error of the Python parser
         raise FileError(f"{path}: damaged: {error}") from error
 
 
 def write_csv(
     path: str | os.PathLike[str], names: Sequence[str], rows: Iterable[Iterable[object]]
 ) -> None:
-    """Write a table, whole or not at all; numbers with all digits, none as an empty cell.
+    """Write a table, whole or not at all: numbers with all digits, None and NaN as empty cells.
 
     FileError if it cannot be written.
     """

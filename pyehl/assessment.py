@@ -9,28 +9,28 @@ from typing import Any
 from pyehl.number_text import fixed, percent, rounded
 
 HOLDS, WITH_CARE, NO_RESULT = "holds", "with care", "no result"
-# Pressure [Pa] from which bearing steel keeps a dent of 1e-4 of the diameter of the ball
-# (ISO 76:2006); the solids of the model stay elastic
+# Pressure [Pa] above which a ball leaves a permanent indentation of 1e-4 of its diameter in
+# bearing steel (ISO 76:2006); the solids of the model are elastic
 YIELDS = 4.2e9
-# Film [m] of the size of the films that additives leave on steel and of what a scan does not show
+# Film [m] as thin as additive films on steel and as roughness below the resolution of a scan
 MOLECULAR = 10e-9
-# Film over roughness below which surfaces touch, and from which they do not (Tallian 1967)
-TOUCHING, APART = 1.0, 3.0
-# A result whose error is a larger share of it is to be taken with care
+# Lambda ratio below which asperities touch, and above which they do not (Tallian 1967)
+TOUCHING, NOT_TOUCHING = 1.0, 3.0
+# Relative error above which a result is assessed as 'with care'
 WELL_KNOWN = 0.05
-# Correlation of two surfaces above which they are no pair of independent ones
+# Correlation above which two surfaces are not independent
 ALIKE = 0.5
-# Status of a prediction whose film is known and whose pressures are outside of the model
+# Status of a prediction with a known film and with pressures outside the model
 BEYOND = "beyond linear response"
 RESULTS = ("converged", "predicted", "target missed", BEYOND)
-# Flash temperature [K] above which an oil is thinner than computed, where its heat is left out
+# Flash temperature rise [K] above which neglected heating is remarked on
 HOT = 10.0
-# Contact radius and film over the radius of curvature above which a remark names the theory of
-# small ones, and mean strain over the former (Tabor 1951)
+# Contact radius and film over the radius of curvature above which the limits of the theory are
+# remarked on, and mean strain over the former (Tabor 1951)
 SLENDER_CONTACT, SLENDER_FILM, MEAN_STRAIN = 0.1, 0.01, 0.2
-# Share of the flow that the boundary film may supply (as fortran/reynolds/touching.f90)
+# Fraction of the flow that the boundary film may supply (as fortran/reynolds/touching.f90)
 MUCH_MASS_DEFECT = 0.1
-# Beginning of the reason why bodies touch because of the grid
+# Beginning of the note that the bodies touch because the grid is too coarse
 NO_INLET = "the grid does not resolve the inlet"
 
 
@@ -53,7 +53,7 @@ class Assessment:
 
 
 class Summary:
-    """Numbers and words of a summary; NaN and '' where there are none."""
+    """Typed access to a summary: NaN for a missing number, '' for a missing text."""
 
     def __init__(self, values: Mapping[str, Any]) -> None:
         self.values = values
@@ -64,7 +64,7 @@ class Summary:
         return float(value) if isinstance(value, int | float) and value is not True else math.nan
 
     def text(self, name: str) -> str:
-        """Give words in one line, those of a list with commas; '' where there are none."""
+        """Give a text in one line, a list with commas; '' if it is missing."""
         value = self.values.get(name)
         if isinstance(value, list) and all(isinstance(word, str) for word in value):
             return ", ".join(value)
@@ -83,7 +83,7 @@ def assess(values: Mapping[str, Any]) -> Assessment:
     """Assess a solution or a prediction from its summary."""
     s = Summary(values)
     status, message = s.text("status"), s.text("message")
-    # a run whose smooth contact is solved
+    # with H_c known, the smooth contact was solved and the rough one failed
     if status == "film breakdown" or (status == "negative film" and s.known("H_c")):
         return Assessment(f"film breakdown: {message}".rstrip(), NO_RESULT)
     if status not in RESULTS:
@@ -104,7 +104,7 @@ def assess(values: Mapping[str, Any]) -> Assessment:
 
 
 def _pressure(s: Summary) -> list[str]:
-    """Pressure at which the solids yield."""
+    """Report a pressure at which the solids would yield."""
     if s.has("load_share_at_hardness"):
         return []
     rough = s.number("p_max_rough_Pa")
@@ -118,7 +118,7 @@ def _pressure(s: Summary) -> list[str]:
 
 
 def _contact(s: Summary) -> list[str]:
-    """Bodies that touch at a boundary film, or a film that is thin."""
+    """Report solid contact, an unresolved inlet, or a thin film."""
     share = s.number("contact_load_share")
     if not _finite_above(share, 0.0):
         note = s.text("H_c_error_note")
@@ -138,7 +138,7 @@ def _contact(s: Summary) -> list[str]:
 
 
 def _yielding(s: Summary) -> list[str]:
-    """Solids that yield at their hardness."""
+    """Report the load that is sustained at the hardness."""
     share = s.number("load_share_at_hardness")
     if not _finite_above(share, 0.0):
         return []
@@ -150,12 +150,12 @@ def _yielding(s: Summary) -> list[str]:
 
 
 def _film(s: Summary) -> list[str]:
-    """Film that is thin beside molecules or beside the roughness."""
+    """Report a film that is thin relative to molecules or to the roughness."""
     ratio = s.number("lambda_ratio")
     if _finite_above(MOLECULAR, _h_min(s)):
         return [
             f"thin film: {_minimum_film(s)}, below {rounded(MOLECULAR * 1e9, 2)} nm, where "
-            "additives and what a scan does not show count, and asperities may touch"
+            "additives and roughness finer than a scan matter, and asperities may touch"
         ]
     if _finite_above(TOUCHING, ratio):
         return [
@@ -166,24 +166,24 @@ def _film(s: Summary) -> list[str]:
 
 
 def _waves(s: Summary) -> list[str]:
-    """Waves that the grid does not resolve."""
+    """Report waves that the grid does not resolve."""
     if not s.has("mu_ratio_unresolved"):
         return []
     predicted = abs(s.number("mu_ratio_unresolved"))
-    part, what = predicted / s.number("mu_ratio"), "mu_r/mu_s by prediction"
+    fraction, what = predicted / s.number("mu_ratio"), "mu_r/mu_s by prediction"
     if not math.isfinite(predicted):
-        part, what = s.number("variance_unresolved"), "the variance of the surface"
-    if not _finite_above(part, WELL_KNOWN):
+        fraction, what = s.number("variance_unresolved"), "the variance of the surface"
+    if not _finite_above(fraction, WELL_KNOWN):
         return []
-    return [f"unresolved waves: they hold {percent(part)} of {what}, use a larger grid.points"]
+    return [f"unresolved waves: they hold {percent(fraction)} of {what}, use a larger grid.points"]
 
 
 def _starvation(s: Summary) -> str:
-    """Starvation by the case, beside that by formulas."""
-    share = s.number("starvation")
-    if not math.isfinite(share):
+    """Report the starvation of the solution and that of a formula."""
+    ratio = s.number("starvation")
+    if not math.isfinite(ratio):
         return ""
-    text = f"; starved as in the case: H_c is {percent(share)} of the flooded film by formula"
+    text = f"; starved as in the case: H_c is {percent(ratio)} of the flooded film by formula"
     if s.known("starvation_by_formula"):
         name = "Hamrock & Dowson IV" if s.known("inlet_position") else "Chevalier et al."
         if s.text("shape") == "line":
@@ -193,19 +193,19 @@ def _starvation(s: Summary) -> str:
 
 
 def _errors(s: Summary) -> list[str]:
-    """Errors that are large or not known, and a contact outside of the range of a model."""
+    """Report errors that are large or unknown, and a contact outside the range of a model."""
     result = []
     for name in ("H_c", "H_min", "mu_ratio"):
         value = s.number(name)
         if not math.isfinite(value):
             continue
         model = f"{name}_model_error"
-        share = s.number(model if s.has(model) else f"{name}_error") / abs(value or math.nan)
+        relative = s.number(model if s.has(model) else f"{name}_error") / abs(value or math.nan)
         word = "mu_r/mu_s" if name == "mu_ratio" else name
-        if not math.isfinite(share):
+        if not math.isfinite(relative):
             result.append(f"the error of {word} is not known")
-        elif share > WELL_KNOWN:
-            result.append(f"{word} is uncertain by {percent(share)}")
+        elif relative > WELL_KNOWN:
+            result.append(f"{word} is uncertain by {percent(relative)}")
     note = s.text("pressure_viscosity_note")
     if "estimate" in note:
         result.append("alpha is an estimate (-17 to +12 % of the film)")
@@ -217,7 +217,7 @@ def _errors(s: Summary) -> list[str]:
 
 
 def _heat(s: Summary) -> list[str]:
-    """Heat that is left out."""
+    """Report heating that the model neglects."""
     rise = s.number("flash_temperature_K")
     if not _finite_above(rise, HOT) or s.known("temperature_rise_max_K"):
         return []
@@ -227,7 +227,7 @@ def _heat(s: Summary) -> list[str]:
 
 
 def _two_alike(s: Summary) -> list[str]:
-    """Two surfaces that move together and are similar."""
+    """Report two surfaces that move together and are correlated."""
     correlation = s.number("surface_correlation")
     if not _finite_above(abs(correlation), ALIKE):
         return []
@@ -238,9 +238,9 @@ def _two_alike(s: Summary) -> list[str]:
 
 
 def _slenderness(s: Summary) -> list[str]:
-    """Contact that is wide, or film that is thick, beside the radius.
+    """Report a contact radius or a film that is not small against the radius of curvature.
 
-    The half-space, the parabolas of its bodies and the Reynolds equation are for small ones. The
+    The half-space, the parabolic gap and the Reynolds equation assume that both are small. The
     mean strain of a dry contact is about 0.2 a/R (Tabor 1951).
     """
     radius = s.number("hertz_radius_m") or math.nan
@@ -275,18 +275,18 @@ def _minimum_film(s: Summary) -> str:
         text = f"the minimum film is {rounded(film * 1e9)} nm"
         if s.has("lambda_ratio"):
             return text
-        rms = rounded(film / APART * 1e9)
-        return f"{text}: Lambda = {rounded(APART, 1)} with an rms roughness of {rms} nm"
+        rms = rounded(film / NOT_TOUCHING * 1e9)
+        return f"{text}: Lambda = {rounded(NOT_TOUCHING, 1)} with an rms roughness of {rms} nm"
     if math.isfinite(ratio):
         return f"Lambda = {rounded(ratio)}"
     return "smooth surfaces; the case gives no size in metres"
 
 
 def _h_min(s: Summary) -> float:
-    """Give the minimum film [m]: over the roughness where it is known."""
+    """Give the minimum film [m], that over the roughness if it is known."""
     return s.number("h_min_rough_m" if s.known("h_min_rough_m") else "h_min_m")
 
 
 def _finite_above(a: float, b: float) -> bool:
-    """Whether a > b; not where one of them is not known."""
+    """Whether both are finite and a > b."""
     return math.isfinite(a) and math.isfinite(b) and a > b

@@ -14,9 +14,9 @@ _users = 0
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """Keep BLAS on one thread while anybody is inside; also a decorator.
+    """Limit BLAS to one thread while any caller is inside the block; also a decorator.
 
-    The order of its sums follows the number of its threads, and the limit belongs to the process.
+    The order of its sums depends on the threads; the limit applies to the whole process.
     """
     global _users  # noqa: PLW0603
     with _LOCK:

@@ -22,12 +22,12 @@ from pyehl.streams import mute
 # Subcommand, which is a module of `pyehl.commands`, and what it does
 SUBCOMMANDS = {
     "run": "solve a case and write a result folder",
-    "check": "print a case resolved, and how it would be solved",
+    "check": "print the resolved case and the plan of its solution",
     "predict": "predict the relative friction of a rough surface from its PSD",
     "stribeck": "friction against speed, film ratio and theta_2",
-    "app": "an interactive contact, in the browser",
-    "sweep": "many cases with one table of results",
-    "compare": "results against a table of references",
+    "app": "an interactive contact in the browser",
+    "sweep": "solve many cases and tabulate their results",
+    "compare": "compare results with a table of references",
     "bearing": "film of every contact of a rolling bearing, and its torque",
     "gear": "film along the path of contact of a gear pair, and its loss",
     "stress": "stress below the surface under a result, smooth or rough",
@@ -37,7 +37,7 @@ SUBCOMMANDS = {
     "lubricants": "oils by name: constants, ranges, sources",
     "fit-lubricant": "a shear law fitted to a measured traction curve",
     "plot": "pictures of a result folder",
-    "report": "one HTML page about a result, to send",
+    "report": "write a result as one HTML page",
     "export": "a result folder as netCDF",
     "info": "versions, compiler, machine",
 }
@@ -80,13 +80,13 @@ def _listen(*, quiet: bool) -> None:
 
 def _execute(args: argparse.Namespace) -> int:
     if sys.stdout is None:
-        # the first file that is opened would take its place
+        # the next file opened would get its descriptor
         raise FileError("standard output: it is closed")
     try:
         status = int(args.execute(args))
         sys.stdout.flush()
     except BrokenPipeError:
-        # the reader is closed, as behind `| head`
+        # the reader has closed the pipe, as `| head` does
         mute()
         return EXIT_FAILED
     except OSError as error:
@@ -124,7 +124,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def status_of(run: Callable[[], int]) -> int:
-    """Give the exit status of a command; what stops it is printed on standard error."""
+    """Run a command and return its exit status; its error is printed on standard error."""
     try:
         return run()
     except InputError as error:

@@ -21,7 +21,7 @@ class Conclusion:
     lines
         Results by name, then the assessment.
     assessment
-        A word and the reason for it.
+        A term and its reason.
     confidence
         'holds', 'with care' or 'no result'.
     """
@@ -60,13 +60,13 @@ RESUMPTION = {
 
 
 def resumption(status: str, results: str) -> str:
-    """Say how to resume a run with this status; '' where it would end the same way."""
-    way = RESUMPTION.get(status)
-    return f"{way}: pyehl run --resume {results}" if way else ""
+    """Say how to resume a run with this status; '' if it would end the same way."""
+    purpose = RESUMPTION.get(status)
+    return f"{purpose}: pyehl run --resume {results}" if purpose else ""
 
 
 def _of(s: Summary, source: str, error: str) -> str:
-    """Name the source of the error of a value; '' where it is not known."""
+    """Name the source of the error of a value; '' if the error is not known."""
     return f" ({source})" if s.known(error) else ""
 
 
@@ -89,7 +89,7 @@ def _film(s: Summary, which: str, more: str) -> dict[str, str]:
 
 
 def _rough_film(s: Summary) -> str:
-    """Minimum film of the rough contact, where it is known."""
+    """Minimum film of the rough contact, if it is known."""
     film, error = s.number("h_min_rough_m") * NM, s.number("h_min_rough_error_m") * NM
     if s.known("h_min_rough_m") and s.known("h_min_rough_error_m"):
         return f"; rough {with_error(film, error, 2, ' nm')} (model)"
@@ -136,9 +136,9 @@ def _film_ratio(s: Summary) -> dict[str, str]:
 
 
 def _friction_ratio(s: Summary) -> dict[str, str]:
-    """Friction over that of the smooth contact, and why its error is not known.
+    """Friction over that of the smooth contact, with its error or why that is not known.
 
-    Of a prediction first the mean over the tracks of the surface.
+    For a prediction, the mean over the tracks of the surface comes first.
     """
     if not s.known("mu_ratio"):
         return {}
@@ -156,7 +156,7 @@ def _friction_ratio(s: Summary) -> dict[str, str]:
 
 
 def _friction(s: Summary) -> dict[str, str]:
-    """Coefficient of friction with the law that it is by, or why there is none."""
+    """Coefficient of friction with its shear law, or why there is none."""
     smooth = f"smooth contact {fixed(s.number('mu_smooth'), 5)}" if s.known("mu_smooth") else ""
     if s.known("mu"):
         text = fixed(s.number("mu"), 5) + (f", {smooth}" if s.has("mu_ratio") and smooth else "")

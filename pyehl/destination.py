@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Destinations of results: what a command may replace, and how a result is put in place.
+"""Destinations of results: what a command may replace, and how it replaces it.
 
-A folder takes a result of one kind if it is empty, or holds an earlier result of this kind and
-nothing else; the rule, its messages and the exchange in one step are those of the library, the same
-for ``ehl``. A single file is written where nothing is, or over a file of the same command, which
-states so in its metadata; never onto what the command reads. Links are kept, their targets used.
+A command may write into a folder that is empty, or that holds an earlier result of the same kind
+and nothing else. The compiled library, as in ``ehl``, checks this and replaces the folder in one
+step. A command may write a single file that is new, or that the same command wrote, as its metadata
+state; never a file that the command reads. Symbolic links are followed and stay.
 """
 
 import errno
@@ -25,9 +25,9 @@ from pyehl.extension import functions
 
 AnyPath = str | os.PathLike[str]
 
-# Files in the making of this process so far: threads may write one target
+# Numbers of temporary files: several threads may write the same target
 _NUMBERS = itertools.count(1)
-# Bytes at both ends of a file that may say what made it
+# Bytes at both ends of a file that are searched for the mark of the command
 NEAR = 64 * 1024
 
 
@@ -42,7 +42,7 @@ def _lines(items: Iterable[AnyPath]) -> bytes:
 
 @contextmanager
 def file_errors(path: AnyPath, what: str = "cannot be written") -> Iterator[None]:
-    """Put the name of a file or folder before the message of the system, as FileError."""
+    """Raise an OSError as a FileError, with the path before the message of the system."""
     try:
         yield
     except FileError:
@@ -52,12 +52,12 @@ def file_errors(path: AnyPath, what: str = "cannot be written") -> Iterator[None
 
 
 def _fresh(name: str) -> str:
-    # with the suffix that the caller sees: it may say the format
+    # the suffix stays at the end: it may determine the format
     return f".partial-{os.getpid()}-{next(_NUMBERS)}-{name}"
 
 
 def check_name(path: AnyPath) -> None:
-    """Refuse a name that is too long, also the longer one that a result has while it is written."""
+    """Refuse a name that is too long, or whose longer temporary name is."""
     folder, name = os.path.split(os.path.abspath(path))
     try:
         os.lstat(os.path.join(folder, _fresh(name)))
@@ -72,13 +72,13 @@ def check_name(path: AnyPath) -> None:
 class Destination:
     """A folder for a result."""
 
-    folder: AnyPath  # where it goes
+    folder: AnyPath
     # 'solution', 'prediction', ...: the ``kind`` of its summary, which also lists its ``files``
     kind: str
-    names: tuple[str, ...] = ()  # names that the result may need
+    names: tuple[str, ...] = ()  # names of the files of the result
     inputs: tuple[AnyPath, ...] = ()  # what the command reads
-    kept: tuple[str, ...] = ()  # other names in the folder that belong to this kind, and stay
-    force: bool = False  # other files may be in the folder; they stay
+    kept: tuple[str, ...] = ()  # names of other files of this kind, which stay
+    force: bool = False  # accept other files in the folder; they stay
 
     def __post_init__(self) -> None:
         check_name(self.folder)
@@ -88,16 +88,16 @@ class Destination:
         return os.fsencode(self.folder), self.kind.encode(), *lists, int(self.force)
 
     def check(self, *, resumes: bool = False) -> None:
-        """Refuse a folder that must not be touched, or cannot be written.
+        """Refuse a folder that must not be replaced, or cannot be written.
 
-        `resumes`: an earlier result is not replaced, but completed. InputError with the file in
-        the way, and the way out.
+        `resumes`: an earlier result is completed, not replaced. InputError with the file in the
+        way, and a remedy.
         """
         check(*functions.check_folder(*self._given(), int(resumes)))
 
     @contextmanager
     def fresh(self) -> Iterator[Path]:
-        """Give an empty folder for the files; at the end of the block it takes its place.
+        """Give an empty folder for the files; at the end of the block it replaces the destination.
 
         InputError as `check`; FileError if the folder cannot be written.
         """
@@ -113,7 +113,7 @@ class Destination:
         check(*functions.finish_folder(*self._given(), os.fsencode(fresh)))
 
     def claim(self, values: Mapping[str, object]) -> None:
-        """Make the folder, or resume in it; its summary states whose it is from the start.
+        """Make the folder, or resume in it, with a summary that states its kind from the start.
 
         InputError as `check`; FileError if the folder cannot be written.
         """
@@ -126,7 +126,7 @@ class Destination:
 
 
 def made_by(path: Path, word: str) -> bool:
-    """Whether a file holds a word near its beginning or its end."""
+    """Whether a file contains a word near its beginning or its end."""
     with path.open("rb") as stream:
         size = os.fstat(stream.fileno()).st_size
         head = stream.read(NEAR)
@@ -143,8 +143,8 @@ def check_files(
 ) -> None:
     """Refuse files that must not be written by a command, such as 'plot', which reads `inputs`.
 
-    `known`: whether the command wrote a file that is there; default: the file has its `mark`.
-    InputError with the file in the way, and the way out.
+    `known`: whether the command wrote an existing file; default: the file has its `mark`.
+    InputError with the file in the way, and a remedy.
     """
     sources = {os.path.realpath(source) for source in inputs}
     for path in map(Path, paths):
@@ -171,9 +171,9 @@ def check_files(
 
 @contextmanager
 def new_file(path: AnyPath) -> Iterator[Path]:
-    """Give a name beside a file to write; at the end of the block it takes its place, whole.
+    """Give a temporary file beside a file; at the end of the block it replaces the file.
 
-    FileError if it cannot be written; the file is as it was.
+    FileError if it cannot be written; the file is then unchanged.
     """
     place = Path(os.path.realpath(path))
     fresh = place.with_name(_fresh(Path(path).name))

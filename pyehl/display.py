@@ -21,7 +21,7 @@ def _text(value: object) -> str:
 
 
 def with_error(value: float | None, error: float | None = None, unit: str = "") -> str:
-    """Give a number with its error, which has two digits; 'not known' where there is none.
+    """Give a number with its error to two digits; 'not known' if there is no number.
 
     Examples
     --------
@@ -47,6 +47,6 @@ def with_error(value: float | None, error: float | None = None, unit: str = "") 
 
 
 def _to_two_digits(value: float, error: float) -> tuple[str, str]:
-    """Write both with as many decimals as give the error two digits."""
+    """Write both with the decimals that give the error two digits."""
     decimals = max(0, 1 - math.floor(math.log10(float(f"{error:.1e}"))))
     return f"{value:.{decimals}f}", f"{error:.{decimals}f}"

@@ -39,19 +39,19 @@ class InputError(EhlError, ValueError):
 
 
 class ClosedError(EhlError, ValueError):
-    """The solver was closed before."""
+    """The solver is closed."""
 
 
 class NoMemoryError(EhlError, MemoryError):
     """An allocation failed, or too many solvers are open."""
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # dask makes exceptions with an __init__ of their own, as MemoryError's, without arguments
+        # dask rebuilds exceptions with their own __init__, as MemoryError, without arguments
         return type(self), self.args, self.__dict__
 
 
 class NotConverged(EhlError, RuntimeError):  # noqa: N818 (the name of a status)
-    """A run ended without a solution.
+    """The run ended without a solution.
 
     Attributes
     ----------
@@ -68,12 +68,12 @@ class NotConverged(EhlError, RuntimeError):  # noqa: N818 (the name of a status)
     cycle limit
     """
 
-    def __init__(self, message: str, results: Any) -> None:  # noqa: ANN401 (keeps xarray out)
+    def __init__(self, message: str, results: Any) -> None:  # noqa: ANN401 (no import of xarray)
         super().__init__(message)
         self.results = results
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Give both arguments to a copy and to another process, not the message alone."""
+        """Copy and pickle both arguments, not the message alone."""
         return type(self), (str(self), self.results), self.__dict__
 
 
@@ -113,7 +113,7 @@ def check(status: int, message: bytes) -> None:
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """Give the end of a message about an unknown word: the nearest known one, or nothing.
+    """Give the nearest known word as the end of a message about an unknown one; '' if none is near.
 
     Examples
     --------
@@ -127,7 +127,7 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
 
 @contextmanager
 def named(name: str) -> Iterator[None]:
-    """Put the name of the case file, if there is one, before an error of the case."""
+    """Put the name of the case file, if it is not '', before the message of an InputError."""
     try:
         yield
     except InputError as error:

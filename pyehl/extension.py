@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The compiled extension, in the build for this processor; the only module that imports it."""
+"""The compiled extension in the build for this processor; no other module imports it."""
 
 from __future__ import annotations
 

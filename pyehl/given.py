@@ -21,8 +21,8 @@ Value = float | int | bool | str
 
 EXPECTED = "texts group.key=value or dicts of values by group.key, or by group and key"
 TYPED = "--set "
-"""Begins an option that was given in a shell, so that messages repeat what the user typed."""
-# Kinds of numbers that can be heights: floats, and whole numbers with and without a sign
+"""Prefix of an option from the command line, so that messages repeat what the user typed."""
+# NumPy kinds of numbers that can be heights: floats, and integers with and without a sign
 REAL = "fiu"
 OTHER_KINDS = {
     "c": "complex numbers",
@@ -36,9 +36,9 @@ OTHER_KINDS = {
 
 
 def check_kind(value: object, kinds: type | tuple[type, ...], name: str, expected: str) -> None:
-    """Refuse an argument that is of none of the `kinds`.
+    """Refuse an argument that is not of one of the `kinds`.
 
-    InputError with the value, what was expected, and what there is.
+    InputError with the value, the expected kind and the actual type.
     """
     if not isinstance(value, kinds):
         raise InputError(
@@ -58,7 +58,7 @@ def positive(name: str, value: float, unit: str) -> float:
 
 
 def path_of(value: Any, name: str) -> str:  # noqa: ANN401
-    """Give a path as text; InputError if it is none."""
+    """Give a path as text; InputError if it is not a path."""
     check_kind(value, (str, bytes, os.PathLike), name, "a path")
     path = os.fsdecode(value)
     if "\0" in path:
@@ -77,22 +77,22 @@ def text_file(path: str | os.PathLike[str], expected: str = "") -> str:
 
 
 def text_of(value: Any, name: str) -> bytes:  # noqa: ANN401
-    """Give a text as the library takes it.
+    """Encode a text for the library.
 
-    InputError if it is no text, or part of it cannot be encoded.
+    InputError if it is not a text, or cannot be encoded.
     """
     check_kind(value, str, name, "a text")
     try:
-        # bytes of a terminal that are no UTF-8 are passed on unchanged
+        # bytes of a terminal that are not UTF-8 are passed on unchanged
         return bytes(value.encode(errors="surrogateescape"))
     except UnicodeEncodeError as error:
-        raise InputError(f"{name} = {reprlib.repr(value)}: no text: {error.reason}") from None
+        raise InputError(f"{name} = {reprlib.repr(value)}: not a text: {error.reason}") from None
 
 
 def plain(value: object) -> Value:
-    """Give a value of Python, NumPy or TOML as one of the four types of a case file.
+    """Convert a value of Python, NumPy or TOML to one of the four types of a case file.
 
-    ValueError if it is none of them.
+    ValueError if that is impossible.
     """
     if isinstance(value, np.generic):
         value = value.item()
@@ -104,9 +104,9 @@ def plain(value: object) -> Value:
 
 
 def option(key: str, value: Value) -> str:
-    """Text ``group.key=value`` that the reader of cases takes.
+    """Format ``group.key=value`` for the reader of cases.
 
-    Between quotes, where a word would lose its quotes or blanks, or is empty.
+    A word is quoted if it is empty, or would lose its own quotes or blanks.
     """
     if isinstance(value, bool):
         return f"{key}={'.true.' if value else '.false.'}"
@@ -116,9 +116,9 @@ def option(key: str, value: Value) -> str:
 
 
 def options_of(options: Any) -> list[str]:  # noqa: ANN401
-    """Options one by one as texts, also where they come as one, in lists or in dicts.
+    """Flatten options, single or in lists or dicts, to a list of texts.
 
-    InputError if one is no text of one line, or a value is no number, truth value or word.
+    InputError if one has several lines, or a value is not a number, a truth value or a word.
     """
     if isinstance(options, str):
         if "\n" in options:
@@ -136,7 +136,7 @@ def options_of(options: Any) -> list[str]:  # noqa: ANN401
 
 
 def by_key(options: Mapping[Any, Any], what: str = "options") -> Iterator[tuple[str, Any]]:
-    """Give ``group.key`` and value one by one of a dict, whose groups may be dicts themselves.
+    """Yield ``group.key`` and value of each item of a dict, whose groups may be dicts.
 
     InputError for a key without a group.
     """
@@ -156,7 +156,7 @@ def by_key(options: Mapping[Any, Any], what: str = "options") -> Iterator[tuple[
 
 
 def bare(option: str) -> str:
-    """Give an option as ``group.key=value``, however it was given."""
+    """Give an option as ``group.key=value``, without the prefix of the command line."""
     return option.removeprefix(TYPED)
 
 
@@ -180,15 +180,15 @@ def _option_of(key: str, value: Any) -> str:  # noqa: ANN401
 
 
 def real_numbers(values: Any, what: str) -> Any:  # noqa: ANN401
-    """Give an array of real numbers as it is, a mask as NaN (then in double precision).
+    """Return an array of real numbers unchanged; a masked one in double precision, with NaN.
 
     `what` begins the message. InputError for complex numbers, truth values, dates and text, which
-    NumPy would turn into numbers or lose a part of.
+    NumPy would convert without an error.
     """
     try:
         array = values if isinstance(values, np.ndarray) else np.asanyarray(values)
         if array.dtype.kind == "O":
-            # whatever its members are, they have to be real numbers, one by one
+            # every member has to be a real number
             other = {type(item).__name__ for item in array.flat if not isinstance(item, Real)}
             if other or any(isinstance(item, bool) for item in array.flat):
                 raise TypeError(f"not {', '.join(sorted(other)) or 'bool'}")
@@ -207,9 +207,9 @@ def real_numbers(values: Any, what: str) -> Any:  # noqa: ANN401
 
 
 def heights_of(heights: ArrayLike) -> Array:
-    """Heights of a surface in Fortran order; InputError if they are no matrix of finite numbers.
+    """Give heights in Fortran order; InputError if they are not a matrix of finite numbers.
 
-    A masked height is a missing point, as nan is.
+    Masked and nan heights are missing points.
     """
     values = np.asfortranarray(real_numbers(heights, "the surface"), dtype=np.float64)
     if values.ndim == 2 and np.isnan(values).any():

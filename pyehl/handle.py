@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A solver of the compiled library by its number: the calls, their lock and their errors.
+"""A solver of the compiled library by its handle: the calls, their lock and their errors.
 
-One call at a time works on a solver: a call in another thread waits until it has ended.
+One call at a time runs on a solver; calls of other threads wait.
 """
 
 import math
@@ -21,7 +21,7 @@ from pyehl.library import returned
 from pyehl.reasons import Results
 from pyehl.types import Array
 
-# Bytes of names and number of values at first
+# Initial sizes of the buffers: bytes of names, number of values
 MIN_BYTES, MIN_VALUES = 16384, 400
 NO_HEIGHTS = np.zeros((1, 1), order="F")
 
@@ -38,9 +38,9 @@ class Work(NamedTuple):
     done
         Steps done.
     earliest
-        Steps until the run can end first: when a mean can be compared with earlier ones.
+        Steps after which the run can end: its mean can then be compared with earlier ones.
     latest
-        Steps until it ends even if its mean has not settled.
+        Steps after which it ends even if its mean has not settled.
     """
 
     done: float
@@ -53,7 +53,7 @@ def _in_order(heights: ArrayLike | None) -> Array | None:
 
 
 def _arguments(given: tuple[Array | None, Array | None]) -> tuple[int, Array, int, Array]:
-    """Pass to the library of each surface whether it is given, and its heights."""
+    """Give the arguments for the library: whether each surface is given, and its heights."""
     first, second = given
     return (
         int(first is not None),
@@ -66,19 +66,19 @@ def _arguments(given: tuple[Array | None, Array | None]) -> tuple[int, Array, in
 class SolverHandle:
     """A solver on the text of a resolved case, with heights [m] (nx, ny) in place of files.
 
-    It is closed at the end of a ``with`` block.
+    A ``with`` block closes it at the end.
 
     Attributes
     ----------
     done
-        Whether nothing is left to do.
+        Whether the run has ended.
     converged
         Whether the solution converged.
     """
 
     _handle = 0
     _calls = 0
-    # surfaces in place of files, until a checkpoint holds them
+    # surfaces in place of files, until they are in a checkpoint
     _given: tuple[Array | None, Array | None] = (None, None)
     done = False
     converged = False
@@ -86,7 +86,7 @@ class SolverHandle:
     def __init__(
         self, text: str, heights: ArrayLike | None = None, second_heights: ArrayLike | None = None
     ) -> None:
-        # a call may be made of several
+        # reentrant: a method may make several calls
         self._lock = threading.RLock()
         self._given = (_in_order(heights), _in_order(second_heights))
         handle, status, message = ehl.open_case(
@@ -104,7 +104,7 @@ class SolverHandle:
     def _call(
         self, function: Callable[..., tuple[Any, ...]], *arguments: object
     ) -> tuple[Any, ...]:
-        """Call a function of the library on this solver; what it returns besides its status."""
+        """Call a library function on this solver; returns its results without the status."""
         with self._lock:
             *result, status, message = function(self._handle, *arguments)
         check(status, message)
@@ -118,7 +118,7 @@ class SolverHandle:
             self._given = (None, None)
 
     def __reduce_ex__(self, protocol: object) -> NoReturn:
-        """Refuse copies and other processes: the arrays are in the library, by a number."""
+        """Refuse to copy or pickle: the arrays are in the library."""
         raise TypeError(
             f"a {type(self).__name__} cannot be copied or pickled: make another of the same case, "
             "or pass on its dataset()"
@@ -130,7 +130,7 @@ class SolverHandle:
             ehl.close_case(self._handle)
 
     def advance(self) -> bool:
-        """One cycle (steady) or step (moving surface); whether nothing is left to do."""
+        """Run one cycle (steady) or time step (transient); whether the run has ended."""
         with self._lock:
             done, converged = self._call(ehl.advance)
             self._calls += 1
@@ -138,7 +138,7 @@ class SolverHandle:
             return self.done
 
     def run(self) -> bool:
-        """Advance to the end; whether the solution converged."""
+        """Run to the end; whether the solution converged."""
         while not self.advance():
             pass
         return self.converged
@@ -150,9 +150,9 @@ class SolverHandle:
             self.done = True
 
     def resume(self, results: str | os.PathLike[str]) -> str:
-        """Resume the transient run that was to write into a folder; before the first `advance`.
+        """Resume the transient run of a result folder; call it before the first `advance`.
 
-        Returns a note for the user; '' when there is no state yet, so that the run starts anew.
+        Returns a note for the user; '' if there is no state yet and the run starts anew.
 
         Raises
         ------
@@ -170,14 +170,14 @@ class SolverHandle:
         Parameters
         ----------
         results
-            The folder that the results are for.
+            Result folder of the run.
         resumed
-            The folder of the run that `resume` resumes.
+            Result folder of the run that `resume` resumes.
 
         Returns
         -------
         str
-            Where the states of an earlier run are now; mostly ''.
+            Where the states of an earlier run are now; usually ''.
 
         Raises
         ------
@@ -195,7 +195,7 @@ class SolverHandle:
         return returned(*note)
 
     def save_state(self, *, at_once: bool = False) -> bool:
-        """Save the state if its time has come, or at once; whether there is one then.
+        """Save the state if it is due, or at once; whether a saved state exists then.
 
         Raises
         ------
@@ -215,7 +215,7 @@ class SolverHandle:
 
     @property
     def work(self) -> Work:
-        """Work of a transient run that is done and that is left."""
+        """Completed and total work of a transient run."""
         return Work(*self._call(ehl.work))
 
     @property
@@ -248,7 +248,7 @@ class SolverHandle:
 
 
 def results_of(solver: SolverHandle) -> Results:
-    """Give the scalar results of a solver, with codes of reasons in place of their words."""
+    """Give the scalar results of a solver, with codes of reasons in place of their texts."""
     return _listed(solver, of_plan=False)
 
 
@@ -258,19 +258,19 @@ def plan_of(solver: SolverHandle) -> Results:
 
 
 def _listed(solver: SolverHandle, *, of_plan: bool) -> Results:
-    room, most = MIN_BYTES, MIN_VALUES
+    n_bytes, n_values = MIN_BYTES, MIN_VALUES
     while True:
-        names, kinds = np.empty(room, np.int32), np.empty(most, np.int32)
-        values = np.empty(most)
-        length, result = solver._call(ehl.results, int(of_plan), names, kinds, values)
-        if length <= room and result <= most:
+        names, kinds = np.empty(n_bytes, np.int32), np.empty(n_values, np.int32)
+        values = np.empty(n_values)
+        length, count = solver._call(ehl.results, int(of_plan), names, kinds, values)
+        if length <= n_bytes and count <= n_values:
             text = names[:length].astype(np.uint8).tobytes().decode(errors="replace")
-            return _sorted(text.splitlines(), kinds[:result].tolist(), values[:result].tolist())
-        room, most = length, result
+            return _sorted(text.splitlines(), kinds[:count].tolist(), values[:count].tolist())
+        n_bytes, n_values = length, count
 
 
 def _sorted(lines: list[str], kinds: list[int], values: list[float]) -> Results:
-    """Sort what the library lists: a name, behind a tab a text; its kind; its value."""
+    """Sort results by kind; a line is a name, and after a tab a text."""
     result = Results({}, {}, {})
     for line, kind, value in zip(lines, kinds, values, strict=True):
         name, _, text = line.partition("\t")
@@ -293,37 +293,37 @@ def _sorted(lines: list[str], kinds: list[int], values: list[float]) -> Results:
 
 
 def take_prediction(solver: SolverHandle, left_out: float, unresolved: float) -> None:
-    """Take the prediction for the waves that the grid leaves out, for the error of mu_ratio.
+    """Pass a solver the prediction for the waves that the grid omits, for the error of mu_ratio.
 
     Parameters
     ----------
     solver
-        The solver that takes it.
+        The solver that receives it.
     left_out, unresolved
-        Parts of mu_ratio in waves that the grid leaves out, and in those that it does not
-        resolve [-]; NaN where there is no prediction.
+        Parts of mu_ratio in waves that the grid omits, and in those that it does not resolve [-];
+        NaN if there is no prediction.
     """
     solver._call(predicted.take_prediction, left_out, unresolved)
 
 
 def start_fronts(solver: SolverHandle) -> Array:
-    """Positions of the fronts [a] at which `take_start` is to give a pressure.
+    """Positions of the fronts [a] at which `take_start` must give a pressure.
 
-    Shape (4, surfaces); of no surface where none is needed, as mostly.
+    Shape (4, surfaces); most runs need none, (4, 0).
     """
     fronts, n = solver._call(predicted.start_fronts)
     return np.asarray(fronts[:, :n])
 
 
 def take_start(solver: SolverHandle, pressure: Array | None, why: str = "") -> None:
-    """Take the pressure that roughness adds where it fills the contact, as a start.
+    """Pass a solver the pressure of roughness that fills the contact, as the initial condition.
 
     Parameters
     ----------
     solver
-        The solver that takes it.
+        The solver that receives it.
     pressure
-        At the positions of `start_fronts`, shape (nx, ny, 4) [p_h]; None where there is none.
+        At the positions of `start_fronts`, shape (nx, ny, 4) [p_h]; None if there is none.
     why
         Why there is none.
     """

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The compiled library.
-
-Solvers have a module of their own, `pyehl.solver`.
+"""Functions of the compiled library; `pyehl.solver` has its solvers.
 
 Arrays are float64 of shape (nx, ny) in Fortran order, first index X. Pressures are scaled by the
 Hertz pressure p_h, lengths by the Hertz radius a, films and deflections by a^2/R.
@@ -25,24 +23,23 @@ def returned(value: bytes) -> str:
 
 
 def check_memory(what: str, size: float) -> None:
-    """Refuse what would not fit into the memory that is free, before it is taken.
+    """Raise NoMemoryError, with the bytes needed and free, before an allocation that would fail.
 
-    What the machine, the control groups of the process and its address space leave counts.
-    NoMemoryError with the bytes needed and free.
+    The machine, the control groups of the process and its address space limit the free memory.
     """
     check(*functions.needs_memory(what.encode(errors="replace"), size))
 
 
 def free_bytes(root: str = "") -> float:
-    """Memory that is free [bytes]; `root` is the folder of /proc and /sys."""
+    """Free memory [bytes]; `root` is the folder of /proc and /sys."""
     return functions.memory_left(os.fsencode(root))
 
 
 def checkpoint_case(results: str | os.PathLike[str]) -> Path:
-    """Case file of the transient run that was to write into a folder, to resume it.
+    """Case file of the transient run of a result folder, to resume it.
 
-    Beside it lies ``surface.npy`` when the surface of the run came from Python. InputError if no
-    state was kept.
+    ``surface.npy`` is beside it if the surface of the run came from Python. InputError if no state
+    was saved.
     """
     path, status, message = functions.checkpoint_case(os.fsencode(results))
     check(status, message)
@@ -89,11 +86,11 @@ def deflection(
 ) -> Deflection:
     """Elastic deflection W = (2/pi^2) iint P dX' dY'/r, P (nx, ny) constant over cells.
 
-    The integral of Zhang et al. 2019, eq. 2, in Hertz units: P by p_h, lengths by a, W by a^2/R,
-    so the mesh sizes. The engine is 'mlmi' or 'fft'; `mirror`: the rows are those with Y
-    >= 0 of a pressure that is symmetric in Y; `accuracy` is the largest error of 'mlmi' relative
-    to the largest deflection; `repeats` applications, for timing. InputError if the engine does
-    not exist or cannot serve the grid.
+    The integral of Zhang et al. 2019, eq. 2, in Hertz units: P by p_h, lengths and mesh sizes by a,
+    W by a^2/R. The engine is 'mlmi' or 'fft'; `mirror`: the rows are those with Y >= 0 of a
+    pressure that is symmetric in Y; `accuracy` is the maximum error of 'mlmi' relative to the
+    maximum deflection; `repeats` applications, for timing. InputError if the engine does not exist
+    or does not support the grid.
     """
     p = np.asfortranarray(pressure, dtype=np.float64)
     w = np.empty(p.shape, order="F")

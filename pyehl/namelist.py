@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Values as namelist text and back, for text as the Fortran writer and this module make it.
+"""Values as namelist text and back, for text that `pyehl.case.writer` or this module wrote.
 
-What a user wrote is read by Fortran alone, which states what is wrong with it.
+`pyehl.case.reader` reads what a user wrote, and reports its errors.
 """
 
 import re
@@ -19,9 +19,9 @@ LOGICAL = {".true.": True, ".false.": False}
 
 
 def values(resolved: str) -> dict[str, dict[str, Any]]:
-    """Read groups and their values of resolved namelist text.
+    """Read the groups and values of resolved namelist text.
 
-    InputError for a line that neither writer makes.
+    InputError for a line in another form.
     """
     groups: dict[str, dict[str, Any]] = {}
     for block in resolved.split(END):
@@ -33,7 +33,7 @@ def values(resolved: str) -> dict[str, dict[str, Any]]:
 def given(resolved: str, *, comments: bool = True) -> str:
     """Give the text of a resolved case without defaults and derived values.
 
-    Read again it is the same case. `comments`: with the meaning of each key.
+    Reading it gives the same case. `comments`: with the meaning of each key.
     """
     blocks = []
     for block in resolved.split(END):
@@ -65,7 +65,7 @@ def word(value: bool | int | float | str | tuple[float, ...]) -> str:
     return "'" + value.replace("'", "''") + "'" if isinstance(value, str) else repr(value)
 
 
-# The cases of a study differ in one key or two
+# The cases of a study differ in one or two keys
 @lru_cache(maxsize=128)
 def _group(text: str) -> dict[str, dict[str, Any]]:
     name, *lines = text.removesuffix(END).strip().splitlines()

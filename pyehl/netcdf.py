@@ -18,7 +18,7 @@ from pyehl.given import path_of
 def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None = None) -> Path:
     """Write a result folder as netCDF-3.
 
-    The file holds what `pyehl.load` gives, under the same names. Left out are empty tables and
+    The file holds what `pyehl.load` gives, under the same names, without empty tables and
     attributes without a value.
 
     Parameters
@@ -26,7 +26,7 @@ def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None =
     folder
         Result folder.
     path
-        File to write; one that `export` wrote is replaced; default ``results.nc`` in the folder.
+        File to write, which may replace one of `export`; default ``results.nc`` in the folder.
 
     Returns
     -------

@@ -3,12 +3,12 @@
 
 import math
 
-# Longest number with decimals; a longer one has an exponent
+# Maximum number of characters without an exponent
 LONGEST = 16
 
 
 def fixed(value: float, decimals: int) -> str:
-    """Write a number with so many decimals, to three digits where these would take or add too much.
+    """Write a number with `decimals`, or to three digits if rounding would change it too much.
 
     Examples
     --------
@@ -30,14 +30,14 @@ def power(value: float, decimals: int) -> str:
 
 
 def digits(value: float, number: int = 5) -> str:
-    """Write so many digits of a number of any size: '1000.0', '0.33300', '2.1000E+09'."""
+    """Write a number of any size with `number` digits: '1000.0', '0.33300', '2.1000E+09'."""
     if value == 0.0 or 1e-4 <= abs(value) < 10.0**number:
         return f"{value:#.{number}g}"
     return power(value, number - 1)
 
 
 def rounded(value: float, number: int = 3) -> str:
-    """Write so many digits of a number without an exponent: '9.99', '10.0', '123'."""
+    """Write a number with `number` digits and no exponent: '9.99', '10.0', '123'."""
     decimals = number
     if value:
         shown = abs(value) * (1.0 + 0.5 * 10.0**-number)
@@ -45,9 +45,9 @@ def rounded(value: float, number: int = 3) -> str:
     return f"{value:.{decimals}f}"
 
 
-def percent(share: float) -> str:
-    """Write a share in per cent: '1.5 %'."""
-    return f"{rounded(100.0 * share, 2)} %"
+def percent(fraction: float) -> str:
+    """Write a fraction in per cent: '1.5 %'."""
+    return f"{rounded(100.0 * fraction, 2)} %"
 
 
 def megapascals(pressure: float) -> str:
@@ -56,14 +56,14 @@ def megapascals(pressure: float) -> str:
 
 
 def memory(size: float) -> str:
-    """Write bytes: '13 MB', '1.2 GB'."""
+    """Write a number of bytes: '13 MB', '1.2 GB'."""
     return f"{math.ceil(size / 1e6)} MB" if size < 1e9 else f"{size / 1e9:.1f} GB"
 
 
 def with_error(value: float, error: float, decimals: int, unit: str, error_digits: int = 2) -> str:
     """Write a number with its error to two digits: '1.185 +- 0.048', '2.6435E-06 +- 5.5E-09'.
 
-    `decimals` are those of a number whose error is not known (not finite).
+    A number whose error is not known (not finite) has `decimals`.
     """
     if not math.isfinite(error):
         return f"{fixed(value, decimals)}{unit}, error not known"

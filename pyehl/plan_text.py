@@ -11,10 +11,9 @@ from pyehl.types import Settings, Values
 
 INDENT = " " * 11
 SCHEMES = {True: "narrow upstream", False: "as in the paper"}
-# Semi-axes over each other from which smooth contacts may be restarted with damped cycles (3 to 9
-# times as long)
+# Ratio of semi-axes above which the solver may restart with damped cycles (3 to 9 times as long)
 LONG = 1.5
-# Bytes and seconds per pixel of a fractal surface that is made
+# Bytes and seconds to generate one pixel of a fractal surface
 PIXEL_BYTES, PIXEL_SECONDS = 16.0, 8e-8
 
 
@@ -38,7 +37,7 @@ def plan_text(plan: Results, settings: Settings) -> str:
 
 
 def making_text(pixels: int) -> str:
-    """State memory and time to make a fractal surface; '' where both are small."""
+    """State memory and time to generate a fractal surface; '' if both are small."""
     count = float(pixels) ** 2
     if PIXEL_SECONDS * count < 1.0:
         return ""
@@ -88,7 +87,7 @@ def _lubricant(v: Values, settings: Settings) -> Iterator[str]:
 
 
 def _friction(v: Values, settings: Settings) -> Iterator[str]:
-    """Sliding and shear law, boundary film, and the heat of the inlet where it is significant."""
+    """Describe sliding, shear law, boundary film, hardness, and shear heating of the inlet."""
     flow = "the flow obeys it, too" if v["thins_flow"] else "the flow is Newtonian"
     speed = abs(v["slide_to_roll"]) * v["mean_velocity"]
     shown = f" ({power(speed, 3)} m/s)" if v["mean_velocity"] > 0.0 else ""
@@ -147,7 +146,7 @@ def _surfaces(v: Values, settings: Settings) -> Iterator[str]:
 
 
 def _duty(v: Values, settings: Settings) -> Iterator[str]:
-    """Say what changes with time, from when to when, and in how many steps."""
+    """Describe the keys that change with time, the time range and the number of steps."""
     if not v["duty"]:
         return
     duty = settings["duty"]
@@ -167,7 +166,7 @@ def _duty(v: Values, settings: Settings) -> Iterator[str]:
     turns = [*duty.get("mean_velocity", ()), 0.0]
     turns += [a + b for a, b in zip(duty.get("u1", ()), duty.get("u2", ()), strict=False)]
     if min(turns) < 0.0:
-        yield f"{INDENT}the mean velocity turns: an inlet on both sides, a symmetric domain"
+        yield f"{INDENT}the mean velocity reverses: an inlet on both sides, a symmetric domain"
 
 
 def _member(v: Values, number: int) -> dict[str, Any]:
@@ -244,7 +243,7 @@ def _waves(v: Values, members: list[dict[str, Any]]) -> Iterator[str]:
         for member in members:
             label = f"&{member['group']}: " if len(members) > 1 else ""
             yield from _height(member, label, v["film"])
-        # an amplitude that is a share of the film is not known at first
+        # an amplitude relative to the film is not known yet
         if len(members) > 1 and all(member["rms_height"] > 0.0 for member in members):
             together = ""
             if v["correlation"] is not None:
@@ -255,18 +254,18 @@ def _waves(v: Values, members: list[dict[str, Any]]) -> Iterator[str]:
                 f"slope {fixed(slope, 5)}{together}"
             )
     text = (
-        f"waves      with fewer than 8 nodes a period hold {_share(v['unresolved'])} of the "
+        f"waves      with fewer than 8 nodes a period hold {_percent(v['unresolved'])} of the "
         "variance of "
     )
     if v["pass_once"] and len(members) == 1:
         yield f"{text}its profile"
     else:
-        left_out = _share(v["left_out"])
+        left_out = _percent(v["left_out"])
         yield f"{text}the surface; {left_out} of it, with 2 and fewer, is left out"
 
 
 def _height(s: Values, label: str, film: float) -> Iterator[str]:
-    """Rms height of a surface with a spectrum, and before that was cut; `film` [m] is the scale."""
+    """Rms height of a surface with a spectrum, also before its cut-off; `film` [m] is the scale."""
     if s["rms_height"] > 0.0:
         text = f"surface    {label}rms height {power(s['rms_height'] * film, 2)} m"
         if s["variance"] < s["variance_whole"]:
@@ -274,18 +273,18 @@ def _height(s: Values, label: str, film: float) -> Iterator[str]:
             text += f", of {whole} m before its spectrum was cut"
         yield text
     elif label:
-        yield f"surface    {label}rms height by its share of the film, once that is known"
+        yield f"surface    {label}rms height relative to the film, which is not known yet"
 
 
-def _share(share: float) -> str:
-    """Write a share of the variance in per cent."""
-    if not share > 0.0:
+def _percent(fraction: float) -> str:
+    """Write a fraction of the variance in per cent."""
+    if not fraction > 0.0:
         return "0 %"
-    return "less than 0.01 %" if share < 1e-4 else percent(share)
+    return "less than 0.01 %" if fraction < 1e-4 else percent(fraction)
 
 
 def _domain(v: Values) -> Iterator[str]:
-    """Borders, the error by them, and whether half of the domain is enough."""
+    """Describe the borders, the error due to them, and whether symmetry halves the domain."""
     error = "it is far too small for a flooded contact"
     if v["domain_error"] < 1.0:
         of = "film" if v["starved"] else "flooded film"
@@ -308,7 +307,7 @@ def _domain(v: Values) -> Iterator[str]:
 
 
 def _cycles(v: Values) -> str:
-    """Kinds of cycles with the sweeps before and after the coarse grids."""
+    """Describe the cycles with their pre- and post-relaxation sweeps."""
     text = f"cycles     {v['cycle']}({v['pre']},{v['post']})"
     if v["second_is_v"]:
         text += f", the second on a finer grid V({v['second_pre']},{v['second_post']})"
@@ -335,7 +334,7 @@ def _stop(v: Values) -> str:
 
 
 def _need(v: Values) -> Iterator[str]:
-    """Memory and time, and how many frames are kept."""
+    """Estimate memory and time, and the number of frames."""
     text = (
         f"need       about {memory(v['bytes'])} of memory and {_duration(v['seconds'])} on one "
         "thread"

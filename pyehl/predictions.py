@@ -19,21 +19,21 @@ if TYPE_CHECKING:
 class Predictions:
     """The predictions for a run, each made once and on demand.
 
-    The package of the prediction is loaded then.
+    The first one imports `pyehl.prediction`.
 
     Parameters
     ----------
     case
         The case of the run.
     tiles
-        Its surfaces by group, where they are not made as the case states; of a large one a part.
+        Surfaces by group that replace those of the case; of a large one a part.
     whole
-        Whether none of `tiles` is a part of the surface alone.
+        Whether all `tiles` are whole surfaces, not parts.
 
     Attributes
     ----------
     why_none
-        Why the waves that the grid leaves out are not predicted; '' where they are.
+        Why the waves that the grid omits are not predicted; '' if they are.
     """
 
     why_none = ""
@@ -51,7 +51,7 @@ class Predictions:
             transfer(solver, self._case.resolve(), self._tiles, whole=self._whole)
 
     def _resolution_once(self) -> Resolution | str | None:
-        """Predict the part that the grid does not resolve; text: why there is no prediction."""
+        """Predict the part that the grid does not resolve, or give the reason for a failure."""
         if not self._resolved:
             from pyehl.prediction.simulation import resolution  # noqa: PLC0415
 
@@ -66,7 +66,7 @@ class Predictions:
         return self._resolution
 
     def lines(self) -> list[str]:
-        """Lines of the plan on the part that the grid does not resolve."""
+        """Lines of the plan about the part that the grid does not resolve."""
         result = self._resolution_once()
         if isinstance(result, str):
             return [f"predicted   no mu_r/mu_s: {result}"]
@@ -74,12 +74,12 @@ class Predictions:
 
     def transfer(self, solver: SolverHandle) -> None:
         """Pass the prediction to a solver, if the error of its mu_ratio depends on it."""
-        found_so_far = {} if self._passed else results_of(solver).values
-        if found_so_far.get("mu_ratio") is None or not found_so_far["variance_unresolved"]:
+        values = {} if self._passed else results_of(solver).values
+        if values.get("mu_ratio") is None or not values["variance_unresolved"]:
             return
         result = self._resolution_once()
         if isinstance(result, str):
-            # a status without its message, which the plan has
+            # the status alone: the plan has the message
             why = result.partition(": ")[0]
             self.why_none = f"the contribution of the omitted waves is not predicted ({why})"
             take_prediction(solver, math.nan, math.nan)

@@ -17,12 +17,12 @@ from pyehl.errors import InputError
 
 VARIABLE = "PYEHL_CPU"
 BASELINE, V3 = "baseline", "x86-64-v3"
-# What x86-64-v3 adds, by the names of Linux (the psABI of x86-64, microarchitecture levels)
+# Features that x86-64-v3 adds, as Linux names them (psABI of x86-64, microarchitecture levels)
 V3_FLAGS = {"avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "abm", "movbe", "xsave"}
 
 
 def processor_flags(path: Path = Path("/proc/cpuinfo")) -> set[str]:
-    """Features of the processor by the names of Linux; none where they are not reported."""
+    """Features of the processor as Linux names them; none if they are not reported."""
     try:
         text = path.read_text(encoding="ascii", errors="replace")
     except OSError:
@@ -37,9 +37,9 @@ def processor_flags(path: Path = Path("/proc/cpuinfo")) -> set[str]:
 def choose(wanted: str, has_v3: bool, flags: set[str]) -> str:
     """Choose a build: the suffix of its extension and of its program, '' or '_v3'.
 
-    `wanted` is the value of ``PYEHL_CPU``, '' leaves the choice to the processor with such
-    features; `has_v3`: there is a build for x86-64-v3 besides the other one. InputError if the
-    wanted build does not exist, or the processor cannot run it.
+    `wanted` is the value of ``PYEHL_CPU``; with '' the features `flags` of the processor decide.
+    `has_v3`: there is a build for x86-64-v3 besides the other one. InputError if the wanted build
+    does not exist, or the processor cannot run it.
     """
     if wanted not in ("", BASELINE, V3):
         raise InputError(f"{VARIABLE}={wanted}: '{BASELINE}' or '{V3}' was expected")
@@ -64,7 +64,7 @@ def suffix() -> str:
 def run_program() -> None:
     """Run the program ``ehl`` of a wheel in place of this process, with the same arguments.
 
-    It is the same build as that of the extension, so that both give the same bits.
+    It is the build of the extension, so that both give the same bits.
     """
     try:
         program = Path(__file__).with_name("bin") / f"ehl{suffix()}"

@@ -13,7 +13,7 @@ class ProgressBar:
     def __init__(self) -> None:
         from tqdm import tqdm  # noqa: PLC0415 (most runs show no bar)
 
-        # without a total, tqdm would draw an empty line at once
+        # without the delay, tqdm would draw an empty line at once
         self._bar = tqdm(bar_format=STEADY, delay=1e-9)
 
     def show(self, solver: Solver) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Texts for the codes of the compiled library: why a number is not known, and what friction is.
+"""Texts for the codes of the compiled library: why a number is not known, and how mu is computed.
 
 The codes are those of ``fortran/base/reason.f90``.
 """
@@ -26,18 +26,18 @@ NOT_CONVERGED = "the temperature is not converged"
 REASONS = {
     1: "there is no solution",
     2: "two coarser grids with a solution are needed",
-    3: "the change from grid to grid does not fall: no limit is in sight",
+    3: "the change from grid to grid does not decrease: no limit is in sight",
     4: "the domain is too small to determine the film of a flooded contact: leave out "
     "grid.x_inlet, or give one farther away",
-    5: NO_INLET + ", and the bodies may touch for that: grid.points = {points_for_inlet} or more",
+    5: NO_INLET + ", which may be why the bodies touch: grid.points = {points_for_inlet} or more",
     6: "the grid is too coarse for a solution at this load: grid.points = {points_for_solution} or "
     "more",
     7: "the ends of a narrow contact need shorter cells across the motion: grid.y_extent = "
     "{narrow_y_extent}, grid.points_y = {narrow_points_y} and solver.max_cycles = 100 may do",
     8: "there is no solution on the next coarser grid",
-    9: "the next coarser grid does not resolve the inlet, and bodies touch on it for that",
-    10: "most of the load is at a boundary film that would have to give much of the flow: the "
-    "share may change on any grid",
+    9: "the next coarser grid does not resolve the inlet, which may be why the bodies touch on it",
+    10: "most of the load is on a boundary film that would have to supply much of the flow: the "
+    "share may change with the grid",
     11: "the bodies touch, and the friction there is not known: lubricant.boundary_friction and "
     "sliding are needed",
     12: ALONE + ": time.estimate_error is false",
@@ -50,10 +50,10 @@ REASONS = {
     19: "there is no mu_ratio",
     20: "{few_positions}",
     21: "the contribution of the omitted waves is not predicted (pyehl run does)",
-    22: "the contribution of the omitted waves is not predicted (for surfaces on the move alone)",
+    22: "the contribution of the omitted waves is not predicted (only for moving surfaces)",
     23: "{no_prediction}",
-    24: "the bodies end under load: the pressure there is infinite in theory, and on a grid that "
-    "of its last cell (cell_at_end); a profile that drops more takes the load off the ends",
+    24: "the bodies end under load: the pressure there is infinite in theory, and on a grid "
+    "depends on its last cell (cell_at_end); a profile that drops more takes the load off the ends",
     31: WITH_HEAT,
     32: "isothermal: lubricant.thermal_friction is 'never'",
     33: "isothermal: the viscosity by temperature is not known "
@@ -87,9 +87,9 @@ class Results:
     Attributes
     ----------
     values
-        Results and words by name; None for a number that does not exist.
+        Numbers and words by name; None for a number that does not exist.
     codes
-        Reasons by the name of their text in the summary.
+        Codes of reasons by the name of their text in the summary.
     details
         Numbers in these texts.
     """
@@ -100,7 +100,7 @@ class Results:
 
 
 def heat_words(code: int, rise: float) -> str:
-    """Say what a coefficient of friction is: with the heat of sliding or without it, and why.
+    """Say whether a coefficient of friction includes the heat of sliding, and why.
 
     `rise`: the temperature rise by estimate [K].
     """
@@ -108,7 +108,7 @@ def heat_words(code: int, rise: float) -> str:
 
 
 def above_limit(stress: float, limit: float) -> str:
-    """Say why there is no coefficient of friction: a Newtonian stress [Pa] that no oil has."""
+    """Say why there is no coefficient of friction: the Newtonian stress [Pa] is unphysical."""
     return (
         f"give a lubricant.shear_law: the Newtonian shear stress of {power(stress, 1)} Pa is "
         f"unphysical, oils shear thin above about {megapascals(limit)} (lubricant.eyring_stress)"
@@ -116,20 +116,20 @@ def above_limit(stress: float, limit: float) -> str:
 
 
 def few_positions(repeats: float, whole: float) -> str:
-    """Say why a mean over a time that is no common period of two surfaces has no known error."""
+    """Say why the error of a mean is unknown if its time is not a common period of the surfaces."""
     text = (
-        f"the mean holds {repeats:.0f} periods of the slowest surface, and both meet in few "
-        "positions then"
+        f"the mean is over {repeats:.0f} periods of the slowest surface, with few relative "
+        "positions of both"
     )
     return f"{text}: time.max_periods = {whole:.0f} for all" if whole > 0 else text
 
 
 def alpha_note(settings: Settings) -> str:
-    """State the source of a pressure-viscosity coefficient that was not given; '' where it was."""
+    """State the source of a pressure-viscosity coefficient that was not given; '' if it was."""
     s = settings["lubricant"]
     origin, alpha = s.get("alpha_origin", "given"), power(s["pressure_viscosity"], 3)
     if origin == "estimated":
-        # least and largest z of the oils that are known by name, at 40 and 100 degC, see
+        # minimum and maximum z of the oils with a name, at 40 and 100 degC, see
         # tests/model/test_lubricants.py
         return (
             f"alpha = {alpha} 1/Pa at {s['temperature']} degC is an estimate by the Z of a mineral "
@@ -147,7 +147,7 @@ def alpha_note(settings: Settings) -> str:
 def law_note(settings: Settings, hertz_pressure: float) -> str:
     """State viscosity, alpha and measured range of a law with constants of an oil; '' for others.
 
-    `hertz_pressure` [Pa]: whether the range of the measurements reaches it.
+    The text warns if `hertz_pressure` [Pa] is above the range of the measurements.
     """
     s = settings["lubricant"]
     law, inlet = s["viscosity_law"], s.get("inlet_law", "")
@@ -174,7 +174,7 @@ def law_note(settings: Settings, hertz_pressure: float) -> str:
 
 
 def summary_of(results: Results, settings: Settings, no_prediction: str = "") -> dict[str, Any]:
-    """Give the summary of a run without its assessment.
+    """Make the summary of a run without its assessment.
 
     Parameters
     ----------
@@ -183,7 +183,7 @@ def summary_of(results: Results, settings: Settings, no_prediction: str = "") ->
     settings
         The resolved case.
     no_prediction
-        Why nothing is predicted of waves that the grid leaves out, where that was tried.
+        Why the prediction for the waves that the grid omits failed; '' if it did not.
     """
     values, d = dict(results.values), results.details
     words = words_of(results, settings, no_prediction)
@@ -208,7 +208,7 @@ def summary_of(results: Results, settings: Settings, no_prediction: str = "") ->
 
 
 def words_of(results: Results, settings: Settings, no_prediction: str = "") -> dict[int, str]:
-    """Give the words of all codes, with their numbers."""
+    """Give the texts of all codes, with their numbers."""
     v, d = results.values, results.details
     points = int(d.get("finest_points", 0))
     message = d.get("coarser_message", "")
@@ -272,7 +272,7 @@ def _why_no_result(results: Results, settings: Settings, words: Mapping[int, str
 
 
 def _steeper(contact: Values) -> str:
-    """Give the keys of a logarithmic profile of twice the amplitude: of its own, or of ISO's."""
+    """Give the keys of a logarithmic profile of twice its own amplitude, or twice that of ISO."""
     for end in ("", "_2"):
         if contact[f"profile{end}"] == "logarithmic":
             key = f"log_amplitude{end}"
@@ -301,7 +301,7 @@ def _of_mean(d: Values, time: Values) -> str:
 def _of_negative_film(
     v: Values, d: Values, place: str, help_: str, *, si: bool, rough: bool
 ) -> str:
-    """Say that there is no positive film: by the grid, or by the roughness."""
+    """Say that there is no positive film, because of the grid or of the roughness."""
     if d["end_phase"] == SMOOTH:
         return f"{place} has no positive film: {help_}"
     text = f"no solution with a positive film for {place}"

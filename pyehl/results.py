@@ -2,9 +2,8 @@
 """Result folders as xarray Datasets: fields with coordinates and units, tables, scalars.
 
 Capital letters (X, Y, T, P, H, RR, A_d) are in Hertz units: a, a/u, p_h, a^2/R. Names that end in
-a unit (``_m``, ``_Pa``, ``_s``) are in that unit; they are there when the case was given in SI
-units. No two names differ only in case, so that readers that do not distinguish them can open an
-exported file.
+a unit (``_m``, ``_Pa``, ``_s``) are in that unit; they exist if the case was given in SI units. No
+two names differ only in case, for readers of exported files that ignore case.
 """
 
 import csv
@@ -30,7 +29,7 @@ from pyehl.types import Array
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """One file of a solution: its name without .npy, the names it gets, dimensions and meaning."""
+    """One file of a solution: its name without .npy, names of variables, dimensions, meaning."""
 
     file: str
     name: str
@@ -86,7 +85,7 @@ PREDICTION |= {
 # Tables are CSV files with a line of names
 SOLUTION_TABLES = ("history",)
 PREDICTION_TABLES = ("passage", "spectrum", "bands")
-# Unit by the end of a name, the longest first
+# Unit by the suffix of a name, the longest first
 SUFFIXES = {
     "_rad_per_m": "rad/m",
     "_per_s": "1/s",
@@ -101,7 +100,7 @@ SUFFIXES = {
     "seconds": "s",
 }
 
-# What is a number has a unit in the schema; T, the time at the end, has the name of a coordinate
+# Numbers have a unit in the schema; T, the time at the end, has the name of a coordinate
 SCALARS = {q.name: q for q in QUANTITIES if q.unit and q.name not in {f.name for f in SOLUTION}}
 SI = {"s", "m", "Pa", "N", "N/m", "K", "Pa s", "1/s", "1/Pa", "m/s", "byte"}
 
@@ -112,7 +111,7 @@ def settings_of(data: xr.Dataset) -> dict[str, dict[str, Any]]:
 
 
 def unit_of(name: str) -> str:
-    """Give the unit of a quantity, or that at the end of a name; '1' where there is none."""
+    """Give the unit of a quantity, or that of the suffix of its name; '1' if there is none."""
     if name in SCALARS:
         return SCALARS[name].unit if SCALARS[name].unit in SI else "1"
     return next((unit for end, unit in SUFFIXES.items() if name.endswith(end)), "1")
@@ -136,7 +135,7 @@ def scalars(summary: Mapping[str, Any]) -> dict[str, xr.Variable]:
 
 
 def attributes(summary: Mapping[str, Any]) -> dict[str, Any]:
-    """Give what of a summary is no variable: words, truth values, and the time at the end."""
+    """Give the entries of a summary that are not variables: words, truth values and T."""
     result = {k: v for k, v in summary.items() if isinstance(v, str | int | float)}
     return {k: v for k, v in result.items() if k not in SCALARS}
 
@@ -155,7 +154,7 @@ def _solution_dataset(
     arrays: Mapping[str, Array],
     tables: Mapping[str, Mapping[str, Array]],
 ) -> xr.Dataset:
-    """Dataset of a folder of ``ehl`` and ``pyehl run``; `arrays` by the names of their files."""
+    """Make the Dataset of a solution; `arrays` by the names of their files."""
     settings = namelist.values(case)
     point = scaling_contact(settings) if "mean_velocity" in settings["contact"] else None
     result: dict[str, xr.Variable] = {}
@@ -179,12 +178,11 @@ def prediction_dataset(
     arrays: Mapping[str, Array],
     tables: Mapping[str, Mapping[str, Array]],
 ) -> xr.Dataset:
-    """Dataset of a prediction.
+    """Make the Dataset of a prediction.
 
-    Of the scalars in `pyehl.schema`, the resolved namelist text, the arrays x (nx,), y (ny,) [m]
-    and, of shape (nx, ny), surface, deformed [m], delta_p [Pa], the same of a second surface with
-    second_ before their names, and the columns by name of the tables ``passage``, ``spectrum`` and
-    ``bands``.
+    From the scalars in `pyehl.schema`, the resolved namelist text, the arrays x (nx,), y (ny,) [m]
+    and, of shape (nx, ny), surface, deformed [m], delta_p [Pa], those of a second surface with the
+    prefix second_, and the columns by name of the tables ``passage``, ``spectrum`` and ``bands``.
     """
     result = {
         name: _variable(_dims(name), arrays[file], unit, meaning)
@@ -207,7 +205,7 @@ def _dataset(
     result: Mapping[str, xr.Variable],
     tables: Mapping[str, Mapping[str, Array]],
 ) -> xr.Dataset:
-    """Dataset of arrays, tables and numbers; arrays of one dimension are its coordinates."""
+    """Make a Dataset of arrays, tables and numbers; arrays of one dimension are coordinates."""
     coords = {name: values for name, values in result.items() if values.ndim == 1}
     rest = {name: values for name, values in result.items() if values.ndim > 1}
     variables = rest | _tables(tables) | scalars(summary)
@@ -235,9 +233,8 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     xarray.Dataset
         Each variable has ``units`` and ``long_name``. The numbers of the summary (see
         `pyehl.schema`) are variables without a dimension, NaN where they do not exist:
-        ``float(ds.H_c)``. Words and truth values are attributes, without those that do not exist,
-        and ``case`` is the resolved case; so is the time at the end, ``T``, whose name is that of a
-        coordinate.
+        ``float(ds.H_c)``. Words and truth values that exist are attributes, with the resolved case
+        as ``case``; so is the time at the end, ``T``, whose name is that of a coordinate.
 
         Of a solution: X, Y, P, H [Hertz units], P and H of shape (nx, ny), and x_m, y_m, p_Pa,
         h_m when the case was given in SI units. A transient run also has P_smooth, H_smooth (the
@@ -256,7 +253,7 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     FileError
         If a file of it cannot be read, or is damaged.
     NoMemoryError
-        If it does not fit into the memory.
+        If it does not fit into memory.
 
     Examples
     --------

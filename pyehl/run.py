@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drive a solver to the end and write the result folder.
+"""Run a solver to the end and write the result folder.
 
-The same calls in the same order as the program ``ehl``, hence the same bits and the same files.
-A transient run keeps its state in ``DIR.checkpoint`` as it goes: `resume` resumes it.
+The calls and their order are those of the program ``ehl``, hence the same bits and files. A
+transient run saves its state in ``DIR.checkpoint`` at intervals: `resume` continues from there.
 """
 
 import logging
@@ -33,9 +33,9 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 @contextmanager
 def signals_to(take: Callable[[int, FrameType | None], None]) -> Iterator[None]:
-    """Handle SIGINT and SIGTERM by a function.
+    """Handle SIGINT and SIGTERM by a function, in the main thread only.
 
-    Signals belong to the main thread: another one is not stopped.
+    Python delivers signals to the main thread: in another thread nothing changes.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -56,7 +56,7 @@ class StopRequest:
         self._before = {number: signal.getsignal(number) for number in SIGNALS}
 
     def take(self, number: int, frame: FrameType | None) -> None:
-        """Take a signal."""
+        """Handle a signal."""
         self.wanted = True
         signal.signal(number, self._before[signal.Signals(number)])
 
@@ -67,7 +67,7 @@ def _silent(_: object) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """How a run ended: whether it converged, and whether it was stopped."""
+    """How a run ended: whether it converged, and whether it was interrupted."""
 
     converged: bool
     interrupted: bool
@@ -84,13 +84,12 @@ def resume(
     force: bool = False,
     inputs: Iterable[AnyPath] = (),
 ) -> Outcome:
-    """Resume a transient run that was stopped; the results are those of an unbroken run.
+    """Resume a transient run that was stopped; the results are those of an uninterrupted run.
 
-    `results` is the folder that the run was to write into, with its state beside it in
-    ``RESULTS.checkpoint``; the results go to `folder`, by default the same. The case, by default
-    as it was, or `options` on it, may differ in threads, in when to stop and in what to write.
-    InputError if nothing was kept, if all of it is damaged, or if it belongs to another case;
-    EhlError as `run`.
+    `results` is the result folder of the run, with its state beside it in ``RESULTS.checkpoint``;
+    the results go to `folder`, by default the same. A `case`, or `options` on the saved one, may
+    change the threads, when to stop and what to write. InputError if there is no state, if every
+    state is damaged, or if it belongs to another case; EhlError as in `run`.
     """
     kept = library.checkpoint_case(results)
     if case is None:
@@ -107,7 +106,7 @@ def resume(
 
 
 def _open(case: Case, resumed: AnyPath, given: tuple[Surface | None, Surface | None]) -> Solver:
-    """Open a solver on a case, with the surfaces that were kept if the run is resumed."""
+    """Open a solver on a case, with the surfaces in the checkpoint if the run is resumed."""
     place = library.checkpoint_case(resumed) if os.fspath(resumed) else None
     files = {g: place.with_name(f"{g}.npy") for g in GROUPS} if place else {}
     kept = {group: read_array(path) for group, path in files.items() if path.is_file()}
@@ -125,7 +124,7 @@ def _open(case: Case, resumed: AnyPath, given: tuple[Surface | None, Surface | N
         try:
             tile = for_solver(case.resolve(), group)
         except (InputError, FileError):
-            # the file of the map is no longer needed
+            # the map file may be gone: its heights are in the checkpoint
             continue
         if tile.heights is not None and np.array_equal(tile.heights, heights):
             made[group] = tile
@@ -138,13 +137,13 @@ def _open_named(
     resumed: AnyPath,
     given: tuple[Surface | None, Surface | None],
 ) -> Solver:
-    """Open a solver; what is wrong with the case is reported with the name of its file."""
+    """Open a solver; an error of the case names its file."""
     with named(os.fspath(inputs[0]) if inputs else ""):
         return _open(case, resumed, given)
 
 
-def _keep_state(solver: Solver, *, at_once: bool) -> bool:
-    """Save the state, now or if its time has come. A run does not end because that fails."""
+def _save_state(solver: Solver, *, at_once: bool) -> bool:
+    """Save the state, at once or if it is due; a failure does not end the run."""
     try:
         return solver.save_state(at_once=at_once)
     except FileError as error:
@@ -164,14 +163,14 @@ def run(
     surface: Surface | None = None,
     second_surface: Surface | None = None,
 ) -> Outcome:
-    """Solve a case and write the result folder, however the run ends.
+    """Solve a case and write the result folder, whether or not the run converges.
 
-    It begins with the state of the run that was to write into `resumed`, or anew. `say` takes
-    messages, `advanced` the solver after each cycle or step. The folder is new or empty, or has
-    results of an earlier run, which are replaced; `force`: other files in it stay. The folder of
-    one of the `inputs`, which the case was read from, is not replaced. InputError if the folder
-    holds something else than results, or cannot be written; EhlError if the solver failed: nothing
-    is written then.
+    The run continues from the state beside the result folder `resumed`, or starts anew. `say`
+    receives messages, `advanced` the solver after each cycle or step. The folder is new or empty,
+    or has results of an earlier run, which are replaced; `force`: other files in it stay. A folder
+    with one of the `inputs`, the files of the case, is not replaced. InputError if the folder holds
+    something other than results, or cannot be written; EhlError if the solver failed: nothing is
+    written then.
     """
     inputs = tuple(inputs)
     sources = (*inputs, *files_of(case.resolve()))
@@ -191,10 +190,10 @@ def run(
                 solver.interrupt()
             else:
                 solver.advance()
-                _keep_state(solver, at_once=False)
+                _save_state(solver, at_once=False)
             advanced(solver)
         say(solver.conclusion())
-        has_state = not solver.converged and _keep_state(solver, at_once=True)
+        has_state = not solver.converged and _save_state(solver, at_once=True)
         solver.write(folder, force=force, inputs=sources)
         name = os.fspath(folder)
         say(f"results: {name}")

@@ -5,8 +5,7 @@ Names that end in a unit (``_m``, ``_Pa``, ...) are in that unit (`moes_m` is th
 capital letters are Hertz units. Kinds: ``solution`` (``ehl``, ``pyehl run``), ``prediction``
 (``pyehl predict``), ``film`` (``pyehl film --json``), ``response`` (``pyehl response``) and ``fit``
 (``pyehl fit-lubricant``). To add a quantity, add a line here and in
-``docs/reference/results.md``: tests compare this table with that page and with all that writes
-summaries.
+``docs/reference/results.md``: tests compare this table with that page and with all summaries.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ if TYPE_CHECKING:
     import xarray
 
 VERSION = 3
-"""Of names, units and meanings, as `schema_version` in a summary: another one where one changes."""
+"""Version of names, units and meanings, `schema_version` in a summary; each change raises it."""
 KINDS = {"s": "solution", "p": "prediction", "f": "film", "r": "response", "t": "fit"}
 
 
@@ -338,7 +337,7 @@ QUANTITIES = tuple(_row(line) for line in _TABLE.strip().splitlines())
 
 
 def summary_of(data: xarray.Dataset) -> dict[str, Any]:
-    """Give the scalars of a result again: attributes, and numbers that exist."""
+    """Give the scalars of a result: attributes, and numbers that exist."""
     numbers = {str(k): float(v) for k, v in data.variables.items() if v.ndim == 0}
     return {**data.attrs, **{k: v for k, v in numbers.items() if not math.isnan(v)}}
 

@@ -74,23 +74,23 @@ class Step:
 
     @property
     def work(self) -> Work:
-        """How much of a transient run is done, as `Solver.work`."""
+        """Completed and total work of a transient run, as `Solver.work`."""
         return self.solver.work
 
 
 class Solver(SolverHandle):
     """A solver on one case, advanced cycle by cycle or step by step.
 
-    A context manager, and an iterator over what is left to do. Every method may be called from
-    every thread: one call at a time works on a solver, and what is read while another thread
-    advances is the state after a whole cycle or step. Several solvers may run in several threads.
+    A context manager, and an iterator over its cycles or steps. Any thread may call any method: one
+    call at a time runs on a solver, so that a thread reads the state after a whole cycle or step.
+    Several solvers may run in several threads.
 
     Parameters
     ----------
     case
         A case, or the path of a case file.
     *options
-        Values that replace those of the case, as of `Case`.
+        Values that replace those of the case, as for `Case`.
     surface, second_surface
         Rough surfaces in place of those of the case: a `pyehl.Topography`, or an array of heights
         [m] with the size of the case. Keys that prepare a map do not apply to them.
@@ -133,7 +133,7 @@ class Solver(SolverHandle):
     def _start(
         self, case: Case, heights: Mapping[str, Array], tiles: Mapping[str, Topography]
     ) -> None:
-        """Start on a case with heights by group in place of its surfaces, made of `tiles`."""
+        """Start on a case with heights by group, made from `tiles`, in place of its surfaces."""
         self._started = time.perf_counter()
         self._case, self._settings = case, case.resolve()
         # surfaces that were given as arrays
@@ -152,7 +152,7 @@ class Solver(SolverHandle):
         return {group: one.part for group, one in made.items() if one.part is not None}
 
     def advance(self) -> bool:
-        """One cycle (steady) or step (moving surface); whether nothing is left to do."""
+        """Run one cycle (steady) or time step (transient); whether the run has ended."""
         if not self._calls:
             self._predictions.begin(self)
         if super().advance():
@@ -207,7 +207,7 @@ class Solver(SolverHandle):
         return values | {"assessment": assess(values).text}
 
     def _prepared(self) -> dict[str, Any]:
-        """Describe what was done to measured maps, by the name in a summary."""
+        """Describe the preparation of measured maps, by the name in a summary."""
         return {f"{name}_preparation": made.summary for name, made in self._preparations.items()}
 
     def conclusion(self) -> str:
@@ -221,7 +221,7 @@ class Solver(SolverHandle):
 
     def dataset(self) -> xarray.Dataset:
         """Give the results so far, the same as `pyehl.load` of the folder that `write` makes."""
-        # xarray takes long to import, and most runs only write
+        # importing xarray is slow, and most runs only write
         from pyehl.results import load  # noqa: PLC0415
 
         with tempfile.TemporaryDirectory(prefix="pyehl-") as folder:
@@ -242,7 +242,7 @@ class Solver(SolverHandle):
         folder
             A new or empty folder, or one with a result of an earlier run, which is replaced.
         force
-            Other files may be in the folder; they stay.
+            Accept other files in the folder; they stay.
         inputs
             Files that must not be replaced.
 
@@ -291,7 +291,7 @@ def solver_on_heights(
         place of the file or the generator. The size is `tile_x` and `tile_y` of the group or, where
         these are 0, `length_x` and `length_y`.
     made
-        How some of them were prepared, where they come from an earlier run.
+        Their preparation, for those from an earlier run.
 
     Raises
     ------

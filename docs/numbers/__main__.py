@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers of the documents, made from their records: python docs/numbers.
+"""Fill the numbers of the documents from their records: python docs/numbers.
 
 A marker in a page is `<!--NAME=EXPRESSION:FORMAT-->TEXT<!--/-->`. NAME is a function of a module
 of this folder; EXPRESSION uses what it returns; TEXT is replaced. A marker does not begin a line,
-unless a table is below it. `--check` writes nothing, and its exit status is 1 if a page is not what
-its records make.
+unless a table is below it. `--check` writes nothing; its exit status is 1 if a page differs from
+its records.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ MARKER = re.compile(r"<!--(\w+)=(.+?)-->(.*?)<!--/-->", re.DOTALL)
 
 @cache
 def values(name: str) -> Values:
-    """Names of a function, and those of its module."""
+    """Names that a function returns, and those of its module."""
     for module in map(import_module, MODULES):
         function = getattr(module, name, None)
         if callable(function) and function.__module__ == module.__name__:
@@ -33,7 +33,7 @@ def values(name: str) -> Values:
 
 
 def filled(text: str) -> str:
-    """Give a page with the numbers of its records."""
+    """Fill a page with the numbers of its records."""
 
     def made(match: re.Match[str]) -> str:
         name, expression, old = match.groups()
@@ -46,12 +46,12 @@ def filled(text: str) -> str:
 
 
 def plain(text: str) -> str:
-    """Give a page without its markers."""
+    """Remove the markers from a page."""
     return re.sub(r"<!--(?:\w+=.+?|/)-->", "", text)
 
 
 def pages() -> list[Path]:
-    """Give all pages with markers."""
+    """Find all pages with markers."""
     result = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
     return [page for page in result if MARKER.search(page.read_text(encoding="utf-8"))]
 

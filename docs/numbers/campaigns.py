@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random cases and contacts of machines: what came of them."""
+"""Outcomes of random cases and of random contacts of machines."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def machine_lines() -> Values:
 
 
 def borders() -> Values:
-    """How far sides and cells change films, and what the error of the domain covers."""
+    """Changes of films by sides and cells, and coverage of the domain error."""
     make = script("machines/make.py")
     for row in make.read("sides.csv"):
         for end in ("_further", "_square"):
@@ -85,7 +85,7 @@ def borders() -> Values:
             continue
         for name in ("H_c", "H_min"):
             known += 1
-            # algebraic errors
+            # with a margin for algebraic errors
             allowed = row[f"{name}_error_domain"] + 2e-5 * limit[name]
             good += abs(row[name] - limit[name]) <= allowed
     return locals()
@@ -106,7 +106,7 @@ def random_cases() -> Values:
 
 
 def laws() -> Values:
-    """The same problems with a shear law and without one."""
+    """The same problems with and without a shear law."""
     rows = read("stress/laws.csv")
     every = {law: [row for row in rows if row["law"] == law] for law in NAMES}
     assert sum(map(len, every.values())) == len(rows)
@@ -156,14 +156,14 @@ def boundary_films() -> Values:
 
 
 def off(row: Row, name: str) -> bool:
-    """Whether a load share differs from that of another run by more than is allowed."""
+    """Whether a load share differs from that of another run by more than its error."""
     stated = row["contact_load_share_error"]
     allowed = max(float(stated), 1e-3) if stated else 0.03
     return abs(float(row["contact_load_share"]) - float(row[name])) > allowed
 
 
 def random_contacts_at_a_film() -> Values:
-    """Predictions of contacts at a boundary film beside solutions."""
+    """Predictions of contacts with a boundary film compared with solutions."""
     rows = read("partial/campaign.csv")
     heads = {
         "smooth": "smooth contact under the prediction: film, pressure",

@@ -45,12 +45,12 @@ def load_shares() -> Values:
 
 
 def dry_contact() -> Values:
-    """Rough balls beside dry contact."""
+    """Rough balls compared with dry contact."""
     dry = script("contact/dry.py")
     solved = [row for row in dry.read() if row["status"] == "converged"]
     worst = np.ceil(1e3 * max(row["rms"] for row in solved)) / 10.0
     peak = np.ceil(1e3 * max(abs(row["P_max_off"]) for row in solved)) / 10.0
-    # those of the boundary film and speed of the text
+    # surfaces with the boundary film and speed of the text
     same = [row for row in solved if row["surface"] not in list(dry.SURFACES)[-3:]]
     good, known, missing = [], [], []
     for points in dry.GRIDS:
@@ -64,7 +64,7 @@ def dry_contact() -> Values:
 
 
 def predicted_shares() -> Values:
-    """Predicted load shares: those predicted before the simulation, those in view."""
+    """Load shares predicted before the simulation, and those known during development."""
     every = read("partial/table.csv")
     before = {row["name"]: row for row in read("partial/predicted.csv")}
     for row in every:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What runs cost and how they end."""
+"""Costs and outcomes of runs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ GRIDS = (129, 257, 513)
 
 
 def robustness() -> Values:
-    """How the random cases end, and what the second solver says of them."""
+    """Outcomes of the random cases, and of the second solver."""
     rows = read("stress/table.csv")
     ended = Counter((row["outcome"] == "converged", row["second"]) for row in rows)
     assert ended[True, "differs"] == ended[False, "has a solution"] == 0
@@ -32,7 +32,7 @@ def robustness() -> Values:
 
 
 def speed() -> Values:
-    """The finest run, and the cycle that an ellipse does without."""
+    """The finest run, and the cycle that an ellipse saves."""
     (run,) = (r for r in read("speed/runs.csv") if (r["points"], r["case"]) == ("513", "fractal"))
     ends = {
         row["case"]: int(row["cycles"])
@@ -44,7 +44,7 @@ def speed() -> Values:
 
 
 def start_times() -> Values:
-    """Time saved, and shares of the steps."""
+    """Time saved, and fractions of the steps."""
     saved = [
         f"{100.0 * float(row['saved']):.0f} %"
         for row in read("speed/skips.csv")
@@ -55,7 +55,7 @@ def start_times() -> Values:
 
 
 def stress() -> Values:
-    """How cases with a law fail."""
+    """Failures of cases with a shear law."""
     ends = [
         Counter(row["outcome"] for row in read("stress/laws.csv") if row["law"] == law)
         for law in ("eyring", "carreau", "newtonian")
@@ -67,7 +67,7 @@ def stress() -> Values:
 
 
 def workprec() -> Values:
-    """The cheapest settings, and what the others cost."""
+    """The cheapest settings, and the cost of others."""
     rows = {
         (row["problem"], row["setting"], row["points"], row["threads"]): row
         for row in read("workprec/workprec.csv")

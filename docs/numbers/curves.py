@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The how-tos of Stribeck and traction curves, by their data."""
+"""Numbers of the how-tos of Stribeck and traction curves."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ FULL, BROKEN = "full film", "film breakdown"
 
 
 def stribeck() -> Values:
-    """Curves by surface, law and slide-to-roll ratio; ten points of rising speed each."""
+    """Curves by surface, law and slide-to-roll ratio; each has ten points of increasing speed."""
     make = script("stribeck/make.py")
     stored = make.stored()
     data = {
@@ -25,7 +25,7 @@ def stribeck() -> Values:
     def speed(row: Row) -> float:
         return float(row["contact.mean_velocity"])
 
-    # 1: slip decides
+    # 1: slip is decisive
     slow, fast = (data[SMOOTH, "eyring", slip][3] for slip in (0.02, 0.3))
     increases = [
         float(row["mu_ratio"]) - 1.0
@@ -46,7 +46,7 @@ def stribeck() -> Values:
     assert speed(broken[-1]) < speed(full[0])
     assert {row["status"] for row in table} == {FULL}
     assert short[4] in broken
-    # 5: a ratio belongs to a slip
+    # 5: a friction ratio depends on slip
     ratios = [float(data[TABLE, "newtonian", slip][3]["mu_ratio"]) for slip in (0.02, 0.1, 0.3)]
     falls = of(data[TABLE, "newtonian", 0.02], "mu_ratio")
     assert np.all(np.diff(falls) < 0.0)
@@ -54,7 +54,7 @@ def stribeck() -> Values:
 
 
 def traction() -> Values:
-    """Friction over the slide-to-roll ratio, and an empirical law where the film is thin."""
+    """Friction over the slide-to-roll ratio, and an empirical law for thin films."""
     rows, thin = read("traction/traction.csv"), read("traction/empirical.csv")
     mu, slip = of(rows, "mu"), of(rows, "contact.slide_to_roll")
     film = 1e9 * of(rows, "h_c_m")

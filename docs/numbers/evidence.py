@@ -19,7 +19,7 @@ ADDED = ("k040c", "k040d", "k050b", "k350", "k040e", "k060b")
 
 
 def contact() -> Values:
-    """Friction, and thinner layers."""
+    """Friction, and thinner boundary films."""
     rows = {
         (row["boundary_film"], row["points"]): row
         for row in read("contact/shares.csv")
@@ -37,7 +37,7 @@ def contact() -> Values:
 
 
 def ellipse() -> Values:
-    """What was simulated, what was blind, and what the waves leave."""
+    """Simulated cases, blind predictions, and the errors that remain."""
     rows, cases = read("ellipse/table.csv"), read("ellipse/cases.csv")
     moes_m, moes_l, ratio = (of(rows, n) for n in ("moes_m", "moes_l", "velocity_ratio"))
     whole = [row["name"] for row in cases if row["shortest_wavelength"] == "0"]
@@ -71,7 +71,7 @@ def ellipse() -> Values:
 
 
 def ellipse_waves() -> Values:
-    """T by the circles that may stand for an ellipse, and the mean pressure."""
+    """T of the circles that may replace an ellipse, and the mean pressure."""
     runs = defaultdict(list)
     for row in read("ellipse/response.csv"):
         key = (row[n] for n in ("ellipticity", "moes_m", "moes_l", "velocity_ratio"))
@@ -92,7 +92,7 @@ def ellipse_waves() -> Values:
 
 
 def rough_errors() -> Values:
-    """Contacts without a stated error of the ratio, and the worst miss."""
+    """Contacts without a stated error of the ratio, and the largest error not covered."""
     known: dict[tuple[str, ...], list[Row]] = defaultdict(list)
     names = ("moes_m", "moes_l", "kind", "wavelength", "width", "amplitude_over_film")
     for row in read("errors/rough.csv"):
@@ -120,7 +120,7 @@ def rough_errors() -> Values:
 
 
 def wide_ellipses() -> Values:
-    """What the estimate of the domain misses of H_c."""
+    """Domain errors of H_c that the estimate does not cover."""
     rows = [row for row in read("errors_ellipses/errors.csv") if row["H_c_doubled"]]
     off = np.abs(of(rows, "H_c") - of(rows, "H_c_doubled")) / of(rows, "H_c_error_domain")
     missed = [row for row, ratio in zip(rows, off, strict=True) if ratio > 1.1]
@@ -130,7 +130,7 @@ def wide_ellipses() -> Values:
 
 
 def extreme_ellipses() -> Values:
-    """Which very narrow and wide contacts converge."""
+    """Convergence of very narrow and very wide contacts."""
     lines: dict[str, str] = {}
     for row in read("errors_ellipses/ends.csv"):
         kappa = "1/30" if row["kappa"].startswith("0.03") else f"{float(row['kappa']):g}"
@@ -141,7 +141,7 @@ def extreme_ellipses() -> Values:
 
 
 def fields() -> Values:
-    """Slopes on the coarser grid, and the part of second order in pressure."""
+    """Slopes on the coarser grid, and the second-order part of the pressure."""
     rows = read("fields/table.csv")
     coarse = [row for row in rows if (row["points"], row["place"]) == ("257", "r < 0.4")]
     film, pressure = (100.0 * (of(coarse, f"{n}_slope") - 1.0) for n in ("film", "p"))
@@ -153,7 +153,7 @@ def fields() -> Values:
 
 
 def lobes() -> Values:
-    """Correlations of the loss of film, and its rms, at little and at much slip."""
+    """Correlations of the film reduction, and its rms, at small and large slip."""
     rows = read("fields/lobes.csv")
     lines = {}
     for names in ("g1, g4, h1, h3, h7, h8", "i1 to i6"):
@@ -169,7 +169,7 @@ def lobes() -> Values:
 
 
 def curve() -> Values:
-    """Loads by Moes, and the speed at which contact ends."""
+    """Moes loads, and the speed at which solid contact ends."""
     rows = read("mixed_curve/curve.csv")
     speeds = of(rows, "contact.mean_velocity")
     moes_m = [OperatingPoint(load=20.0, mean_velocity=u).moes_m for u in speeds]
@@ -184,7 +184,7 @@ def curve() -> Values:
 
 
 def partial() -> Values:
-    """The earlier version, and how wide errors are."""
+    """The earlier version, and the width of its errors."""
     rows = read("partial/table.csv")
     share, result = of(rows, "contact_load_share_now"), of(rows, "contact_load_share")
     seen = [row for row in rows if row["name"][0] == "c" and float(row["contact_load_share"])]
@@ -198,7 +198,7 @@ def partial() -> Values:
 
 
 def response() -> Values:
-    """Points left out, and waves with much slip."""
+    """Points that the fit omits, and waves with large slip."""
     rows = read("response/leave_out.csv")
     slow, slip = of(rows, "slow"), of(rows, "slip")
     corner = int(np.nanargmax(slow))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Accuracy, limits and theory."""
+"""Numbers of the pages on accuracy, limits and theory."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pyehl.theory.ellipse import ellipse
 
 
 def accuracy() -> Values:
-    """Domains, errors on 129² nodes, waves that 257² nodes leave out."""
+    """Domains, errors on 129² nodes, waves that 257² nodes do not resolve."""
     rows = [row for row in read("errors/smooth.csv") if row["H_c"] and row["H_c_doubled"]]
     change = 100.0 * np.abs(of(rows, "H_c") / of(rows, "H_c_doubled") - 1.0)
     light = of(rows, "moes_m") < 500.0
@@ -57,7 +57,7 @@ def accuracy() -> Values:
 
 
 def limits() -> Values:
-    """The rough ball on a disc whose films are as thin as its roughness, and narrow contacts."""
+    """A rough ball on a disc with films as thin as its roughness, and narrow contacts."""
     said, runs = (
         [
             row
@@ -87,7 +87,7 @@ def limits() -> Values:
 
 
 def starts() -> Values:
-    """Steps of runs that start from the prediction, over those of others."""
+    """Steps of runs that start from the prediction over those that start behind a front."""
     rows = [row for row in read("start/problems.csv") if "slide-to-roll" not in row["problem"]]
     share = of(rows, "steps") / of(rows, "steps_front")
     return locals()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The prediction beside what was simulated and measured."""
+"""The prediction compared with simulations and measurements."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pyehl.theory.operating import OperatingPoint
 
 
 def measured() -> Values:
-    """Mean films beside a dimple by interferometry, and those of pyehl."""
+    """Mean films near a dimple by interferometry and by pyehl."""
     rows = [
         row
         for row in read("films/table.csv")
@@ -24,7 +24,7 @@ def measured() -> Values:
 
 
 def share_of_contact() -> Values:
-    """Load shares of predictions beside those of the solver."""
+    """Load shares of predictions compared with those of the solver."""
     rows = read("partial/table.csv")
     share, result = of(rows, "contact_load_share_now"), of(rows, "contact_load_share")
     assert np.mean(np.abs(share - result) <= 0.0305) > 0.7
@@ -33,7 +33,7 @@ def share_of_contact() -> Values:
 
 
 def mixed() -> Values:
-    """How good the load share of a prediction is, and how it changes with the mesh."""
+    """Accuracy of predicted load shares, and their change with the mesh."""
     rows = read("partial/table.csv")
     blind, others = ([r for r in rows if (r["name"][0] == "d") == first] for first in (True, False))
     worst = np.abs(of(blind, "contact_load_share_predicted") - of(blind, "contact_load_share"))
@@ -62,13 +62,13 @@ def mixed() -> Values:
 
 
 def high_ratios() -> Values:
-    """How far the prediction is off where the ratio is large."""
+    """Deviations of the prediction at large ratios."""
     rows = [row for row in read("prediction/table.csv") if float(row["mu_ratio"]) > 2.5]
     return locals()
 
 
 def left_out() -> Values:
-    """T at operating points that the fit does not know; the corner (100, 3) is the worst."""
+    """T at operating points outside the fit; the corner (100, 3) is the worst."""
     rows = read("response/leave_out.csv")
     slow, slip = of(rows, "slow"), of(rows, "slip")
     corners = [r["moes_m"] in ("100", "3000") or r["moes_l"] in ("3", "20") for r in rows]
@@ -77,7 +77,7 @@ def left_out() -> Values:
 
 
 def ellipses() -> Values:
-    """T of measured waves, and rough surfaces before and today."""
+    """T of measured waves, and rough surfaces with the earlier and the present model."""
     left: dict[str, dict[str, list[float]]] = {}
     for row in read("ellipse/response.csv"):
         t = complex(float(row["T_re"]), float(row["T_im"]))
@@ -194,7 +194,7 @@ def finest() -> Values:
 
 
 def surfaces() -> Values:
-    """What was simulated."""
+    """Ranges of the simulated surfaces."""
     rows = read("prediction/cases.csv")
     m, ell, ratio, hurst = (of(rows, n) for n in ("moes_m", "moes_l", "velocity_ratio", "hurst"))
     tiles = [
@@ -217,7 +217,7 @@ def pair_ranges() -> Values:
 
 
 def all_positions() -> Values:
-    """The two pairs that meet in all positions."""
+    """The two pairs that sample all relative positions."""
     table = read("pairs/table.csv")
     m, ell, slip = (of(table, name) for name in ("moes_m", "moes_l", "slide_to_roll"))
     most = 0.5 * max(slip)
@@ -230,7 +230,7 @@ def all_positions() -> Values:
 
 
 def partial_rows() -> Values:
-    """Every contact of the evidence of boundary films, in the tables of its page."""
+    """Every contact of the evidence on boundary films, as rows of the tables."""
     names = ("contact_load_share", "contact_area_share", "mu")
     lines = {}
     for row in read("partial/table.csv"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Records of docs/evidence, and how pages write their numbers."""
+"""Read the records of docs/evidence, and format numbers for pages."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 ROOT = Path(__file__).resolve().parents[2]
 Row = dict[str, str]
 Values = dict[str, Any]
-"""Names that the markers of a page may use."""
+"""Values by the names that the markers of a page may use."""
 
 
 def read(name: str) -> list[Row]:
@@ -27,22 +27,22 @@ def read(name: str) -> list[Row]:
 
 
 def of(rows: Iterable[Row], name: str) -> NDArray[np.float64]:
-    """Give the numbers of a column; NaN where it is empty."""
+    """Give the numbers of a column; NaN for an empty cell."""
     return np.array([float(row[name] or "nan") for row in rows])
 
 
 def percent(value: float, digits: int = 1) -> str:
-    """Give a share in per cent, with the sign of the pages."""
+    """Format a number in per cent, with the minus sign of the pages."""
     return f"{value:.{digits}f} %".replace("-", "−")
 
 
 def largest(values: Iterable[float], digits: int) -> str:
-    """Give the largest magnitude, rounded."""
+    """Format the maximum magnitude."""
     return f"{np.nanmax(np.abs(np.array(list(values)))):.{digits}f}"
 
 
 def span(values: Iterable[float], form: str) -> str:
-    """Give the least and the largest value."""
+    """Format the minimum and maximum."""
     result = np.array(list(values))
     return f"{np.nanmin(result):{form}} to {np.nanmax(result):{form}}"
 

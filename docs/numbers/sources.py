@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Constants of the Fortran sources that pages of the theory state."""
+"""Constants of the Fortran sources that the theory pages state."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ ORDINALS = "zeroth first second third fourth fifth sixth seventh eighth ninth te
 
 
 def constants(file: str, names: str) -> Values:
-    """Numbers of a source by name: one, or a list of those in [...] or merge(...)."""
+    """Constants of a source by name: a number, or the list in [...] or merge(...)."""
     text = (ROOT / "fortran" / file).read_text(encoding="utf-8")
     result = {}
     for name in names.split():
@@ -24,20 +24,20 @@ def constants(file: str, names: str) -> Values:
 
 
 def coarsening() -> Values:
-    """Where grids are coarsened along one side, and until when."""
+    """When grids are coarsened in one direction only, and the limits."""
     result = constants("multigrid/hierarchy.f90", "long_y max_unknowns")
     result |= constants("grid/grid.f90", "long_x")
     return result | constants("case/case_grid.f90", "few_rows")
 
 
 def cells() -> Values:
-    """Sides of cells, and the sharp pressure spike."""
+    """Shapes of cells, and the sharp pressure spike."""
     names = "min_ratio largest_ratio largest_smooth high_spike blunt_spike"
     return constants("multigrid/workspace.f90", "long") | constants("case/case_grid.f90", names)
 
 
 def guard() -> Values:
-    """Cycles that fail: when they are rejected, damped, accelerated."""
+    """When failing cycles are rejected, damped or accelerated."""
     result = constants("multigrid/cycle.f90", "damped_log_change damped_sweep damped_correction")
     lines = [
         "| degree | limit on changes of ln ε, relative | factor on changes in a sweep | factor on "

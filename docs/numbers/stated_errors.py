@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stated errors, time steps, fields and the response beside their tables."""
+"""Stated errors, time steps, fields and the response, from their tables."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def steps() -> Values:
 
 
 def smooth_errors() -> Values:
-    """What the doubled domain changes, and how many true errors are as stated."""
+    """Changes by the doubled domain, and how many true errors the stated ones cover."""
     make = script("errors/make.py")
     rows = make.numbers("smooth")
     changed = [row for row in rows if row["H_c_doubled"] and row["H_c"]]
@@ -68,7 +68,7 @@ def smooth_errors() -> Values:
 
 
 def borders_by_moes() -> Values:
-    """What the domain of the paper takes of H_c, by the border."""
+    """Error of H_c on the domain of the paper, by the border condition."""
     lines: dict[str, list[str]] = {}
     for border in ("zero", "flooded"):
         rows = [{k: float(v or "nan") for k, v in r.items()} for r in read(f"errors/{border}.csv")]
@@ -83,7 +83,7 @@ def borders_by_moes() -> Values:
 
 
 def ratio_errors() -> Values:
-    """How many ratios are as stated, by grid."""
+    """How many stated errors of ratios cover the true ones, by grid."""
     make = script("errors/make.py")
     every = make.numbers("rough")
     rows = [row for row in every if row["mu_ratio_error"] is not None]
@@ -106,7 +106,7 @@ def ratio_errors() -> Values:
 
 
 def ellipse_errors() -> Values:
-    """How many errors of ellipses hold, with and without a flooded border."""
+    """How many stated errors of ellipses cover the true ones, with and without a flooded border."""
     show = script("errors_ellipses/show.py")
     rows = TABLES.numbers_of(show.HERE / "errors.csv")
     assert {row["status"] for row in rows} == {"converged"}
@@ -128,7 +128,7 @@ def ellipse_errors() -> Values:
 
 
 def best_fields() -> Values:
-    """Correlations and slopes of c8s12c, and the part of second order in film and pressure."""
+    """Correlations and slopes of c8s12c, and the second-order part of film and pressure."""
     rows = read("fields/table.csv")
     best = [r for r in rows if r["name"] == "c8s12c" and r["place"][0] != "X"]
     slopes = [[float(r[n]) for r in best] for n in ("p_slope", "film_slope")]
@@ -151,7 +151,7 @@ def best_fields() -> Values:
 
 
 def residuals() -> Values:
-    """Largest residuals of T, of waves that are fitted and of those that are not."""
+    """Maximum residuals of T, of fitted and of other waves."""
     moving = [row for row in read("response/residuals.csv") if row["moes_m"]]
     centre, every = (max(float(r[n]) for r in moving) for n in ("largest_at_centre", "largest"))
     waves = read("response/waves.csv")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Oils that thin: waves and rough surfaces."""
+"""Shear-thinning oils: waves and rough surfaces."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ ERRORS = {
     "rms_deformed_m": "rms_deformed_error_m",
 }
 AIMS = {"mu_ratio": 0.5, "p_rise_rms_Pa": 5, "h_min_rough_m": 5}
-"""Deviations that were aimed at [%]."""
+"""Target deviations [%]."""
 
 
 def thinning_waves() -> Values:
-    """By how much measured waves of oils that thin differ from the response, by run."""
+    """Deviations of measured waves of shear-thinning oils from the response, by run."""
     runs: dict[str, list[Row]] = {}
     for row in read("thinning/waves.csv"):
         if float(row["x"]) == 0.0:
@@ -50,7 +50,7 @@ def thinning_surfaces() -> Values:
 
 
 def deviations(table: str, names: str, prediction: str) -> Values:
-    """Relative deviations of surfaces whose names begin so, and how many errors cover."""
+    """Relative deviations of surfaces by the first letter of their names, and coverage."""
     said = {row["name"]: row for row in read(f"thinning/{prediction}.csv")}
     runs = [row for row in read(f"thinning/{table}.csv") if row["name"][0] in names]
     result = {}
@@ -91,7 +91,7 @@ def surfaces_before() -> Values:
 
 
 def surface_rows() -> Values:
-    """Predicted and simulated of each surface, those of g, h and i as committed."""
+    """Predicted and simulated values of each surface; g, h and i as committed."""
     tables = {
         name: {row["name"]: row for row in read(f"thinning/{name}.csv")}
         for name in ("committed", "predicted")

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Results beside values of other programs and film formulas."""
+"""Results compared with other programs and film formulas."""
 
 from __future__ import annotations
 
 from records import Row, Values, of, read
 
 LIMITS = {"circle": 0.45, "ellipse": 0.3, "thinning": 0.9, "waviness": 0.1}
-"""Largest deviation from the other program that the page may show, by group [%]."""
+"""Maximum deviation from the other program that the page may show, by group [%]."""
 LOW, HIGH = (20.0, 100.0), (200.0, 2000.0)
 
 
 def others() -> Values:
-    """Values of the other programs, ours, and the deviation, in the order of the table."""
+    """Values of the other programs and of pyehl, and deviations, in the order of the table."""
     lines = []
     smooth: dict[str, list[float]] = {"H_c": [], "H_min": []}
     for row in read("validation/table.csv"):
@@ -27,7 +27,7 @@ def others() -> Values:
 
 
 def second_solver() -> Values:
-    """Films of ellipses by the second solver: ours on the same cells, and those of C."""
+    """Films of ellipses by the second solver, by pyehl on the same cells, and by the C program."""
     rows = read("validation/second.csv")
     ours = max(abs(100.0 * (float(r["ours"]) / float(r["second"]) - 1.0)) for r in rows)
     off = {
@@ -43,7 +43,7 @@ def second_solver() -> Values:
 
 
 def line_meshes() -> Values:
-    """Limits of the minimum film of a line: of two meshes by order 2, of three by their order."""
+    """Extrapolated minimum film of a line: from two meshes by order 2, or from three."""
     films: dict[str, dict[int, float]] = {"pyehl": {}, "newton": {}}
     for row in read("validation/line.csv"):
         films[row["solver"]][int(row["intervals"])] = float(row["H_min"])
@@ -61,7 +61,7 @@ def line_meshes() -> Values:
 
 
 def film_formulas() -> Values:
-    """Ratios of films by formula to ours: spans, and the largest deviations."""
+    """Ratios of films by formula to those of pyehl: ranges, and the maximum deviations."""
     every = read("validation/formulas.csv")
 
     def ratios(name: str, quantity: str, bounds: tuple[float, float]) -> list[float]:
@@ -81,6 +81,6 @@ def film_formulas() -> Values:
     high = [
         100.0 * (max(ratios(name, "H_c", (0.0, 1e9))) - 1.0) for name in ("Hamrock", "Chittenden")
     ]
-    # twice too thick
+    # more than twice too thick
     assert 2.0 < max(ratios("Hamrock", "H_min", heavy)) < 2.3
     return locals()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables that the scripts of docs/evidence make, whole."""
+"""Whole tables that the scripts of docs/evidence make."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def rollers() -> Values:
 
 
 def deflection() -> Values:
-    """Errors of the multi-integration, of theory and of evidence."""
+    """Errors of the multi-integration, for the pages of theory and evidence."""
     theory, evidence = script("deflection/make.py").tables()
     return {"theory": "\n".join(theory), "evidence": "\n".join(evidence)}
 
@@ -45,14 +45,14 @@ def times() -> Values:
 
 
 def shares() -> Values:
-    """Load shares on ever finer grids, and rough balls beside dry contact."""
+    """Load shares under grid refinement, and rough balls compared with dry contact."""
     make = script("contact/make.py")
     result = {name: "\n".join(make.lines(name)) for name in make.CONTACTS}
     return result | {"dry": "\n".join(script("contact/dry.py").lines())}
 
 
 def inlet() -> Values:
-    """Smooth contacts that touch: at least 95 % of the stated errors hold."""
+    """Smooth bodies in contact: the stated errors cover at least 95 %."""
     make = script("inlet/make.py")
     rows = make.read()
     for name in make.QUANTITIES:
@@ -73,12 +73,12 @@ def start() -> Values:
 
 
 def mixed_curve() -> Values:
-    """Friction from boundary to full film."""
+    """Friction from boundary to full-film lubrication."""
     return {"lines": "\n".join(script("mixed_curve/make.py").lines())}
 
 
 def paper() -> Values:
-    """The record of the paper redone."""
+    """The reproduction of the paper."""
     make = script("paper/make.py")
     judged = (row for row in make.read("table.csv") if row["verdict"] != "not judged")
     rows = [make.line(row) for row in judged if row["piece"] != "table 1"]

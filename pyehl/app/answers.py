@@ -18,19 +18,19 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array
 
 COARSE, FINE = 129, (257, 513)
-"""Nodes a side while a control moves, and when it rests."""
+"""Nodes per side while a control moves, and when it rests."""
 DELAY = 0.12
-"""A control that has not been changed for so long is at rest [s]: a dragged slider changes more
-often, and a finer film may still come within 0.4 s."""
+"""Time without changes after which a control is at rest [s]: a dragged slider changes more often,
+and a finer film can still appear within 0.4 s."""
 CURVES = {"mean velocity": "velocity", "slide-to-roll ratio": "slide_to_roll"}
 
 
 @dataclass(frozen=True, slots=True)
 class Film:
-    """The smooth contact on a grid; arrays are empty where there is no solution."""
+    """The smooth contact on a grid; arrays are empty without a solution."""
 
     points: int
-    contact: tuple[object, ...]  # what it is the film of, as `Position.contact`
+    contact: tuple[object, ...]  # `Position.contact` of the film
     summary: Mapping[str, Any]
     point: OperatingPoint
     sheet: Mapping[str, Any]  # film formulas
@@ -56,7 +56,7 @@ class Rough:
 
 @dataclass(frozen=True, slots=True)
 class CurvePoint:
-    """One point of a curve; NaN where there is no number."""
+    """One point of a curve; NaN for a missing number."""
 
     place: float
     h_c: float = math.nan  # [m]
@@ -74,16 +74,16 @@ def film(
 ) -> Film | None:
     """Solve the smooth contact; None if the result is outdated.
 
-    `known` are films on some grids: one of the same contact is given at once, and the formulas do
-    not depend on the grid. InputError if the case is not acceptable.
+    `known` are earlier films by their nodes: one of the same contact on this grid is returned at
+    once, and one on another grid has the formulas. InputError if the case is not acceptable.
     """
     case = position.case(points, smooth=True)
     contact = position.contact
-    of_it = {n: result for n, result in (known or {}).items() if result.contact == contact}
-    if points in of_it:
-        return of_it[points]
+    same = {n: result for n, result in (known or {}).items() if result.contact == contact}
+    if points in same:
+        return same[points]
     settings = case.resolve()
-    sheet = next((result.sheet for result in of_it.values()), None) or api.film(case).summary
+    sheet = next((result.sheet for result in same.values()), None) or api.film(case).summary
     with Solver(case) as solver:
         while not solver.done:
             if not wanted():
@@ -99,7 +99,7 @@ def film(
 
 
 def rough(position: Position) -> Rough:
-    """Predict the rough contact, or say why it cannot be."""
+    """Predict the rough contact, or give the reason for a failure."""
     try:
         return Rough(api.predict(position.case(FINE[0])))
     except (EhlError, OSError) as error:
@@ -107,9 +107,9 @@ def rough(position: Position) -> Rough:
 
 
 def follow(position: Position, known: dict[int, Film]) -> Callable[[JobContext], None]:
-    """Give the job of a position: coarse at once, the rest when the control rests.
+    """Make the job of a position: a coarse film at once, finer ones when the control rests.
 
-    `known` are the last films of the page by their nodes a side, which the job brings up to date.
+    `known` are the last films of the page by their nodes per side, which the job updates.
     """
 
     def job(context: JobContext) -> None:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Changes of many models that reach the browser in one message.
+"""Changes of many models in one message to the browser.
 
-Bokeh sends a message for each property, and the browser paints between them: every picture several
-times for one answer.
+Bokeh sends a message for each property, and the browser repaints after each: every picture several
+times for one result.
 """
 
 from typing import Any
@@ -13,12 +13,12 @@ APPLY = "source.data.model.forEach((m, k) => m.setv(source.data.values[k], {sync
 
 
 class Changes:
-    """What is to change, collected and sent at once; models of the server keep what they had.
+    """Changes that are collected and sent together; the models of the server stay unchanged.
 
     Attributes
     ----------
     source
-        Transmits the changes; it has to be in the document.
+        Transmits the changes; it must be in the document.
     """
 
     def __init__(self) -> None:
@@ -27,11 +27,11 @@ class Changes:
         self._collected: list[tuple[Any, dict[str, Any]]] = []
 
     def of(self, model: Any, **values: Any) -> None:  # noqa: ANN401 (Bokeh has no types)
-        """Let properties of a model change."""
+        """Collect changes of properties of a model."""
         self._collected.append((model, values))
 
     def send(self) -> None:
-        """Send what was collected."""
+        """Send the collected changes."""
         models = [model for model, _ in self._collected]
         self.source.data = {"model": models, "values": [values for _, values in self._collected]}
         self._collected = []

@@ -10,46 +10,46 @@ from pyehl.theory.oils import known_oils
 
 Value = float | int | str
 
-# Places of a slider
+# Number of steps of a slider
 STEPS = 400
 
 
 @dataclass(frozen=True, slots=True)
 class Control:
-    """A number that can be turned.
+    """A number with a slider and a text field.
 
-    `low` and `high` are the ends of the slider; what is typed may lie beyond them.
+    `low` and `high` are the ends of the slider; typed values may be beyond them.
     """
 
     name: str
     label: str
     unit: str
-    scale: float  # of the case file, for one unit of the control
+    scale: float  # unit of the control in the unit of the case file
     low: float
     high: float
-    log: bool = True  # equal ratios over the slider
+    log: bool = True  # whether the slider is logarithmic
     whole: bool = False
 
     def at(self, place: int) -> Value:
         """Give the value at a place of the slider, 0 to `STEPS`, with three digits."""
-        share = place / STEPS
+        fraction = place / STEPS
         if self.log:
-            value = self.low * (self.high / self.low) ** share
+            value = self.low * (self.high / self.low) ** fraction
         else:
-            value = self.low + (self.high - self.low) * share
+            value = self.low + (self.high - self.low) * fraction
         return round(value) if self.whole else float(f"{value:.3g}")
 
     def place(self, value: float) -> int:
         """Give the nearest place of the slider."""
         inside = min(max(value, self.low), self.high)
         if self.log:
-            share = math.log(inside / self.low) / math.log(self.high / self.low)
+            fraction = math.log(inside / self.low) / math.log(self.high / self.low)
         else:
-            share = (inside - self.low) / (self.high - self.low)
-        return round(share * STEPS)
+            fraction = (inside - self.low) / (self.high - self.low)
+        return round(fraction * STEPS)
 
     def read(self, text: str) -> Value:
-        """Read what was typed; InputError if it is no number."""
+        """Read typed text; InputError if it is not a number."""
         try:
             value = int(text) if self.whole else float(text)
             finite = math.isfinite(value)
@@ -71,7 +71,7 @@ class Choice:
     words: tuple[str, ...]
 
     def read(self, text: str) -> str:
-        """Take a word; InputError if it is none of them."""
+        """Check a word; InputError if it is not one of them."""
         if text not in self.words:
             raise InputError(f"{self.label} = '{text}': expected one of {', '.join(self.words)}")
         return text
@@ -115,7 +115,7 @@ GROUPS: dict[str, tuple[Control | Choice, ...]] = {
 }
 CONTROLS = {control.name: control for group in GROUPS.values() for control in group}
 
-# Which controls are there for some values of another alone
+# Controls that are shown only for some values of another control
 ONLY: dict[str, tuple[str, ...]] = {
     "oil_name": ("oil", "of an oil by name"),
     "viscosity": ("oil", "at the inlet"),
@@ -135,7 +135,7 @@ ONLY: dict[str, tuple[str, ...]] = {
 
 
 def shown(name: str, values: Mapping[str, Value]) -> bool:
-    """Whether a control matters with these values."""
+    """Whether a control is shown with these values."""
     if name not in ONLY:
         return True
     other, *words = ONLY[name]

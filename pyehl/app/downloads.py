@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Downloads of a page: the report, and the figures in a width of a journal."""
+"""Downloads of a page: the report, and the figures with the width of a journal."""
 
 import io
 import tempfile
@@ -12,7 +12,7 @@ from pyehl.app.position import Position
 from pyehl.plots.folder import plot
 from pyehl.reports.folder import report
 
-# The settings of matplotlib are those of the process: one thread draws at a time
+# The settings of matplotlib belong to the process: one thread draws at a time
 _DRAWING = threading.Lock()
 
 
@@ -27,7 +27,7 @@ def _results(position: Position, points: int, folder: Path) -> Path:
 
 
 def report_page(position: Position, points: int) -> bytes:
-    """Give the report of a position, as ``pyehl report`` writes it. EhlError if there is none."""
+    """Make the report of a position, as ``pyehl report``. EhlError if that fails."""
     with tempfile.TemporaryDirectory(prefix="pyehl-") as name:
         place = _results(position, points, Path(name))
         with _DRAWING:
@@ -35,7 +35,7 @@ def report_page(position: Position, points: int) -> bytes:
 
 
 def figures(position: Position, points: int, suffix: str, width: float) -> bytes:
-    """Give the figures of a position in a ZIP file, so wide [m] or as they are (0)."""
+    """Make the figures of a position as a ZIP file, with a width [m] or their own (0)."""
     with tempfile.TemporaryDirectory(prefix="pyehl-") as name:
         place = _results(position, points, Path(name))
         made = Path(name) / "figures"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fields in the form that a page draws: colours, levels, lines, in mm, nm and GPa."""
+"""Fields in the form that the page draws: colours, levels, lines, in mm, nm and GPa."""
 
 import math
 from typing import NamedTuple
@@ -17,11 +17,11 @@ from pyehl.prediction.result import Prediction
 from pyehl.types import Array
 
 VIEW = 1.3
-# Pixels a side of the fringes, at least
+# Minimum number of pixels per side of the fringes
 PIXELS = 240
 LEVELS = 20
 HIGHEST = 1.6
-"""Largest film of the colours and the lines, of the central one."""
+"""Maximum film of the colours and the contours, over the central film."""
 
 
 class Map(NamedTuple):
@@ -46,7 +46,7 @@ def _edge(result: Film) -> Outline:
 
 
 def film_map(result: Film) -> Map:
-    """Film of a solution as two-colour fringes and as numbers; rows across the motion."""
+    """Film of a solution as two-colour fringes and as numbers; rows are across the motion."""
     along, across = _edge(result).reach
     inside_x, inside_y = np.abs(result.x) <= VIEW * along, np.abs(result.y) <= VIEW * across
     film = result.film[np.ix_(inside_x, inside_y)] * result.point.film_scale * 1e9
@@ -94,7 +94,7 @@ def contour_lines(made: Map) -> tuple[Array, Array]:
 
 
 def _round(value: float) -> float:
-    """Give the 1, 2 or 5 times a power of ten nearest above."""
+    """Round up to 1, 2 or 5 times a power of ten."""
     power = 10.0 ** math.floor(math.log10(value))
     return next(s * power for s in (1.0, 2.0, 5.0, 10.0) if s * power >= value * (1 - 1e-12))
 
@@ -130,7 +130,7 @@ def outline(result: Film) -> tuple[Array, Array]:
 
 
 def tiles(made: Prediction) -> tuple[Array, Array, float, float, float]:
-    """Roughness before and in the contact (n, m) [nm], sizes [mm], largest of the scale [nm]."""
+    """Roughness before and in the contact (n, m) [nm], sizes [mm], maximum of the scale [nm]."""
     before = np.ascontiguousarray(made.surface.heights.T) * 1e9
     after = np.ascontiguousarray(made.friction.response.deformed.T) * 1e9
     most = max(1e-9, float(np.abs(before - before.mean()).max()))
@@ -139,7 +139,7 @@ def tiles(made: Prediction) -> tuple[Array, Array, float, float, float]:
 
 
 def octaves(made: Prediction) -> dict[str, list[float]]:
-    """Octaves of wavelengths [µm], and what each adds to mu_r/mu_s."""
+    """Octaves of wavelengths [µm], and their contributions to mu_r/mu_s."""
     bands = [band for band in made.bands if math.isfinite(band.increase)]
     return {
         "left": [band.shortest * 1e6 for band in bands],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of the page, and how results are drawn in them."""
+"""The pictures of the page, and the updates of their data."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -29,10 +29,10 @@ from pyehl.types import Array
 SIDE = 310
 WHITE = "#ffffff"
 TICKS = 5
-"""Numbers of an axis, about: more would touch in panels of this width."""
+"""Desired number of ticks: more would overlap in panels of this width."""
 HINTS = {
-    "rough_hint": "The surface is smooth, or its prediction is not there yet.",
-    "curve_hint": "A button computes nine points, which takes some seconds.",
+    "rough_hint": "The surface is smooth, or its prediction is not ready.",
+    "curve_hint": "A button computes nine points, which takes several seconds.",
 }
 """Texts in place of pictures without data."""
 
@@ -58,7 +58,7 @@ def _map(title: str, **more: Any) -> Any:  # noqa: ANN401
 
 
 class Pictures:
-    """Figures by what they show, and their sources."""
+    """Figures and their data sources."""
 
     def __init__(self) -> None:
         self.changes = Changes()
@@ -100,7 +100,7 @@ class Pictures:
         return self.before, self.after, self.bands, self.over
 
     def _reveal(self, hint: str, pictures: Sequence[Any], *, known: bool) -> None:
-        """Show pictures, or in their place why there are none."""
+        """Show pictures, or a hint in their place."""
         for picture in pictures:
             self.changes.of(picture, visible=known)
         self.changes.of(self.hints[hint], visible=not known)
@@ -154,7 +154,7 @@ class Pictures:
         return result[0], result[1]
 
     def _friction(self) -> tuple[Any, Any]:
-        """Draw what octaves add, and the ratio over the passage."""
+        """Draw the contributions of octaves, and the ratio over the passage."""
         bands = _figure(
             "contributions of octaves of wavelengths", "wavelength [µm]", "increase of μ_r/μ_s",
             x_axis_type="log", height=260, x_range=Range1d(1, 1000), y_range=Range1d(0, 1),
@@ -181,7 +181,7 @@ class Pictures:
         return made
 
     def show_film(self, result: Film) -> None:
-        """Show a solution; nothing where there is none."""
+        """Show a solution, or empty figures if there is none."""
         if not result.converged:
             self._empty(self.film, self.contours, self.edge, *self.lines.values())
             self.changes.send()
@@ -211,7 +211,7 @@ class Pictures:
         self.changes.send()
 
     def show_rough(self, result: Rough) -> None:
-        """Show a prediction; nothing where there is none."""
+        """Show a prediction, or hide its figures if there is none."""
         made = result.prediction
         self._reveal("rough_hint", self._rough(), known=made is not None)
         if made is None:
@@ -243,7 +243,7 @@ class Pictures:
     def show_curve(
         self, points: Sequence[CurvePoint], places: Sequence[float], over: str, about: str
     ) -> None:
-        """Show a curve as far as it is, over all of its places."""
+        """Show the finished points of a curve, with axes for all of its places."""
         change = self.changes.of
         self._reveal("curve_hint", self.curves, known=True)
         for picture, name in zip(self.curves, ("film", "ratio"), strict=True):
@@ -271,7 +271,7 @@ class Pictures:
         picture: Any,  # noqa: ANN401
         values: Sequence[float] | Array,
     ) -> None:
-        """Let the y axis reach over values, with a little room."""
+        """Set the y axis to the range of values, with a margin."""
         low, high = float(min(values)), float(max(values))
         room = 0.05 * (high - low) or 1.0
         start = low - (room if low else 0.0)
@@ -279,7 +279,7 @@ class Pictures:
 
 
 def _columns(points: Sequence[CurvePoint], name: str) -> Mapping[str, Any]:
-    """Give places, values and ends of the bars of a curve."""
+    """Give places, values and ends of the error bars of a curve."""
     if name == "film":
         value = np.array([p.h_c * 1e9 for p in points])
         error = np.array([p.h_c_error * 1e9 for p in points])

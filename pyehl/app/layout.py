@@ -44,8 +44,8 @@ FORMATS = ("png", "svg", "pdf")
 WIDTHS = {"0": "as they are", "84": "84 mm (one column)", "174": "174 mm (two columns)"}
 MAPS = ".npy,.txt,.csv,.dat,.asc,.x3p,.sdf,.al3d,.opd,.plux,.sur,.gwy,.nc,.h5"
 
-# Each part and each picture is a root of its own: where a size changes, be it by a text, the
-# browser lays out the root anew and paints all pictures in it
+# Each part and each picture is its own root: after a change of size, even of a text, the browser
+# lays out the root again and repaints all pictures in it
 TEMPLATE = """
 {% block contents %}
 <div style="display: flex">
@@ -99,7 +99,7 @@ def _table(rows: Sequence[tuple[str, str]]) -> str:
 
 
 class Layout:
-    """All elements of the page but the pictures, by name."""
+    """All elements of the page except the pictures."""
 
     def __init__(self, handlers: _Handlers, pictures: Pictures, start: Position) -> None:
         self.controls = {
@@ -111,7 +111,7 @@ class Layout:
         self.note = Div(text="", name="note", width=WIDTH, styles={"font-size": "85%"})
         self.numbers = Div(text="", name="numbers", width=350)
         self.rough = Div(text="", name="rough", width=350)
-        # the generation that was asked for, that is shown, and its nodes a side
+        # generation requested, generation shown, and its nodes per side
         self.stamp = ColumnDataSource(
             {"asked": [0], "generation": [0], "points": [0]}, name="stamp"
         )
@@ -147,7 +147,7 @@ class Layout:
         }
         for name, root in self.roots.items():
             root.name = name
-        # so that the browser has what nothing draws
+        # invisible models must be in the document to reach the browser
         self.roots["files"].tags = [self.stamp, self.parcel, pictures.changes.source]
 
     def _file(
@@ -156,7 +156,7 @@ class Layout:
         widget: Any,  # noqa: ANN401
         take: Callable[[str, bytes], None],
     ) -> Callable[[str, object, object], None]:
-        """Hear a file that was chosen; its name and its content come one after the other."""
+        """Handle a chosen file; its name and its content arrive one after the other."""
         waits = False
 
         def chosen() -> None:
@@ -209,7 +209,7 @@ class Layout:
         )  # fmt: skip
 
     def show_controls(self, values: Mapping[str, Value]) -> None:
-        """Show the controls that matter."""
+        """Show the controls that apply."""
         for name, control in self.controls.items():
             control.layout.visible = shown(name, values)
         self.map_box.visible = values["surface"] == "map"
@@ -219,15 +219,15 @@ class Layout:
         self.case.value, self.python.value = case, python
 
     def busy(self, points: int) -> None:
-        """Say that the numbers are of an earlier position."""
+        """Show that the numbers belong to an earlier position."""
         self._say(f"computing on {points} × {points} nodes …", "color:#666666")
 
     def failed(self, text: str) -> None:
-        """Say why there is no result."""
+        """Show why there is no result."""
         self._say(text, "color:#b00020;font-weight:bold")
 
     def _say(self, text: str, style: str) -> None:
-        # with its colour in it: one change for the browser
+        # text and colour in one change for the browser
         self.status.text = f'<span style="{style}">{escape(text)}</span>'
 
     def show_film(self, rows: Sequence[tuple[str, str]], status: str, *, converged: bool) -> None:
@@ -243,5 +243,5 @@ class Layout:
         self.rough.text = f"<b>Rough contact</b>{_table(rows)}" if rows else ""
 
     def fetched(self, text: str) -> None:
-        """Say how far a download is."""
+        """Show the progress of a download."""
         self.errand.text = escape(text)

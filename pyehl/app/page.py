@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One page: its controls, its worker, its pictures. Each tab of a browser has its own."""
+"""One page, a tab of the browser: its controls, workers and pictures."""
 
 import base64
 import threading
@@ -24,7 +24,7 @@ from pyehl.app.worker import JobContext, Worker
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 
-# Nodes a side of the case file, the report and the figures
+# Nodes per side of the case file, the report and the figures
 POINTS = FINE[-1]
 CURVE_POINTS = 9
 REPORT = "report.html"
@@ -33,19 +33,19 @@ NO_MAP = "there is no height map yet: expected an upload; the contact is smooth 
 
 
 class Page:
-    """A page of one tab, from its start to the end of its session."""
+    """The page of one tab, from the start to the end of its session."""
 
     def __init__(self, document: Document, start: Position, note: str = "") -> None:
         self.document, self.position = document, start
-        # where the controls are: as the position, but for a map that is not there yet
+        # state of the controls: that of the position, except for a map that is still missing
         self._wish = start
         self.uploads = Uploads()
-        # what was uploaded and could not be read yet, for want of a size
+        # an uploaded file that could not be read yet, because its size is missing
         self._pending: tuple[str, bytes] | None = None
         self.pictures = Pictures()
         self.layout = Layout(self, self.pictures, start)
         self._shown = 0
-        # what is shown of both contacts
+        # results shown of both contacts
         self._rough: Rough | None = None
         self._film: Film | None = None
         self._films: dict[int, Film] = {}
@@ -59,25 +59,25 @@ class Page:
         document.title = "pyehl"
         document.template = get_env().from_string("{% extends base %}" + TEMPLATE)
         document.template_variables["pictures"] = PICTURES
-        # at each root alone Bokeh would look at all models again
+        # without freezing, Bokeh would traverse all models again for each root
         with document.models.freeze():
             for root in self.layout.roots.values():
                 document.add_root(root)
         document.on_session_destroyed(self._ended)
         self.layout.note.text = escape(note)
         self._show_case()
-        # what is sent before the browser listens is lost
+        # the browser does not receive earlier messages
         document.on_event(DocumentReady, self._ready)
 
     def _ready(self, event: object) -> None:
         self._moved()
 
     def _ended(self, context: object) -> None:
-        # other pages are served meanwhile
+        # in a thread, so that other pages are served meanwhile
         threading.Thread(target=self.close, daemon=True).start()
 
     def close(self) -> None:
-        """End the threads, free the solvers, remove the uploads when nothing reads them."""
+        """End the threads, free the solvers, then remove the uploads."""
         for worker in self.workers:
             worker.close()
         self.uploads.close()
@@ -92,18 +92,18 @@ class Page:
         self.document.add_next_tick_callback(partial(show, generation, answer))
 
     def soon(self, do: Callable[[], None]) -> None:
-        """Do something when all that came with one message is there."""
+        """Call a function once all parts of the present message have arrived."""
         self.document.add_next_tick_callback(do)
 
     def turned(self, name: str, value: Value) -> None:
-        """Take a changed control; what is wrong is shown there, and the answer stays."""
+        """Apply a changed control; an error is shown there, and the results stay."""
         wish = self._wish.turned(name, value)
         self.layout.show_controls(wish.values)
         if name in ("map_x", "map_y") and self._pending is not None:
             self._wish = wish
             self.upload(*self._pending)
             return
-        # until there is a map the contact is smooth
+        # the contact is smooth until there is a map
         missing = wish.values["surface"] == "map" and not wish.file
         tried = wish.turned("surface", "smooth") if missing else wish
         try:
@@ -119,7 +119,7 @@ class Page:
         self._moved()
 
     def _moved(self) -> None:
-        """Compute for the position, and keep the case file in step with it."""
+        """Compute the position, and update the case file."""
         generation = self.worker.submit(answers.follow(self.position, self._films))
         self._show_case()
         if self._rough is not None and not self.position.rough:
@@ -133,11 +133,11 @@ class Page:
         self.layout.busy(COARSE)
 
     def _answered(self, generation: int, answer: Film | Rough | Exception) -> None:
-        """Show an answer, unless a newer one is there."""
+        """Show an answer, unless a newer one is shown."""
         if generation < self._shown or self.worker.closed:
             return
         if isinstance(answer, Rough) and not self.position.rough:
-            # the surface has been turned to smooth since
+            # the surface has been set to smooth since
             return
         self._shown = generation
         self.document.hold("combine")
@@ -186,7 +186,7 @@ class Page:
         self._moved()
 
     def upload(self, name: str, data: bytes) -> None:
-        """Take a height map, or say what its reader reports."""
+        """Add a height map, or show the error of its reader."""
         try:
             path = self.uploads.add(name, data, self._wish.map_message())
             wish = replace(self._wish.turned("surface", "map"), file=path)
@@ -246,7 +246,7 @@ class Page:
         self.layout.fetched(why or (f"making {names} …" if names else ""))
 
     def _fetched(self, what: str, generation: int, answer: bytes | Exception) -> None:
-        """Hand a file to the browser, or say why there is none."""
+        """Send a file to the browser, or show why there is none."""
         if self.worker.closed:
             return
         why = ""
@@ -261,7 +261,7 @@ class Page:
         self._say_making(why)
 
     def _drawn(self, generation: int, answer: Any) -> None:  # noqa: ANN401
-        """Show a curve so far, or say why there is none."""
+        """Show the finished points of a curve, or why there are none."""
         if self.curves.closed:
             return
         if isinstance(answer, Exception):

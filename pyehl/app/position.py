@@ -15,7 +15,7 @@ from pyehl.surfaces import rough_groups
 from pyehl.theory.oils import known_oils
 from pyehl.theory.operating import OperatingPoint
 
-# Keys that the controls stand for; of an opened case all others are kept as they are
+# Keys that the controls set; all other keys of an opened case stay
 OWNED = {
     "bodies": None,
     "contact": {
@@ -29,7 +29,7 @@ OWNED = {
     "surface": {"kind", "rms_height", "hurst", "seed", "file", "length_x", "length_y"},
     "grid": {"points", "points_y", "target_error", "max_points"},
 }  # fmt: skip
-# Keys of the oil of an opened case that no other oil has
+# Keys that belong to the oil of an opened case only
 OF_SHEET = ("density_15", "thermal_expansion")
 STEEL = {"modulus_1": 206.0, "poisson_1": 0.3, "modulus_2": 206.0, "poisson_2": 0.3}
 STEEL_MODULUS = STEEL["modulus_1"] * 1e9 / (1.0 - STEEL["poisson_1"] ** 2)
@@ -57,20 +57,20 @@ _OF_SURFACE = tuple(control.name for control in GROUPS["Surface"])
 
 @dataclass(frozen=True, slots=True)
 class Position:
-    """Values of all controls, in their units; they are never changed, only replaced.
+    """Values of all controls, in their units; immutable.
 
     Attributes
     ----------
     values
-        By the names of `pyehl.app.controls.CONTROLS`.
+        Values by the names of `pyehl.app.controls.CONTROLS`.
     base
         The other keys of the case, as namelist text.
     modulus
-        E' [Pa] of an opened case, until the moduli are turned; 0: by the moduli.
+        E' [Pa] of an opened case, until a modulus changes; 0: by the moduli.
     file
         Height map of the surface 'map'; '': none yet.
     oil
-        How the opened case gives its oil: the value of the control then.
+        Value of the control 'oil' for the opened case.
     """
 
     values: Mapping[str, Value]
@@ -87,11 +87,11 @@ class Position:
     def _si(self, name: str) -> float:
         control = CONTROLS[name]
         assert isinstance(control, Control)
-        # the value of a decimal text, 22 1/GPa as 2.2e-8
+        # rounded to the value of a decimal text, 22 1/GPa as 2.2e-8
         return float(f"{float(self.values[name]) * control.scale:.12g}")
 
     def reduced_modulus(self) -> float:
-        """E' [Pa]: 2/E' = sum of (1 - nu^2)/E. InputError where the moduli make none."""
+        """E' [Pa]: 2/E' = sum of (1 - nu^2)/E. InputError for impossible moduli."""
         if self.modulus:
             return self.modulus
         total = 0.0
@@ -106,7 +106,7 @@ class Position:
         return float(f"{2.0 / total:.12g}")
 
     def options(self, points: int) -> dict[str, Value]:
-        """Give the keys of the case that the controls stand for."""
+        """Give the keys of the case that the controls set."""
         v = self.values
         result: dict[str, Value] = {
             "contact.load": self._si("load"),
@@ -165,7 +165,7 @@ class Position:
         return result
 
     def case(self, points: int, *, smooth: bool = False) -> Case:
-        """Give the case on a grid, or that of its smooth contact; InputError if it is none."""
+        """Make the case on a grid, or that of its smooth contact; InputError if it is invalid."""
         base = self.base
         if self.values["oil"] != self.oil:
             lines = base.splitlines(keepends=True)
@@ -174,18 +174,18 @@ class Position:
         return case.smooth() if smooth else case
 
     def text(self, points: int) -> str:
-        """Give the case file: what was given, the map without its folder."""
+        """Give the case file without defaults, and the map without its folder."""
         text = namelist.given(self.case(points).text, comments=False)
         return text.replace(self.file, Path(self.file).name) if self.file else text
 
     @property
     def contact(self) -> tuple[object, ...]:
-        """What the smooth contact depends on: positions with the same differ in the surface."""
+        """The values that the smooth contact depends on."""
         controls = [v for name, v in self.values.items() if name not in _OF_SURFACE]
         return (*controls, self.modulus, self.base, self.oil)
 
     def map_message(self) -> dict[str, Value]:
-        """Give the keys of the case for its height map, as `Uploads.check` takes it."""
+        """Give the keys of the case for its height map, as in `Uploads.check`."""
         kept = namelist.values(self.base).get("surface", {})
         keys = ("channel", "height_unit", "lateral_unit")
         result = {key: kept[key] for key in keys if key in kept}
@@ -198,7 +198,7 @@ class Position:
 
 
 def _kept(text: str) -> str:
-    """Give what the controls do not stand for of a resolved case."""
+    """Give the keys of a resolved case that the controls do not set."""
     groups = {}
     for group, keys in namelist.values(namelist.given(text)).items():
         owned = OWNED.get(group, set())
@@ -209,11 +209,11 @@ def _kept(text: str) -> str:
 
 
 def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Position, str]:
-    """Set the controls by a case; with a note on what is shown another way.
+    """Set the controls from a case; returns a note on conversions.
 
-    `files` are the maps that may be read, by their names; None: those of the case itself. A case
-    by M and L becomes one in SI units with the radius and the modulus of a steel ball. InputError
-    if the case has what no control stands for.
+    `files` are the maps that may be read, by their names; None: those of the case. A case in M and
+    L becomes one in SI units with the radius and the modulus of a steel ball. InputError if the
+    controls cannot represent the case.
     """
     settings = case.resolve()
     if "second_surface" in rough_groups(settings):
@@ -225,7 +225,7 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
     contact, lubricant = settings["contact"], settings["lubricant"]
     if lubricant.get("table"):
         raise InputError("lubricant.table: the page knows viscosities, data sheets and names")
-    # without what shear heating does to the viscosity
+    # the viscosity without shear heating
     plain = {**lubricant, "thermal_reduction": False}
     point = OperatingPoint.from_settings({"contact": contact, "lubricant": plain})
     note = ""
@@ -257,7 +257,7 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
         scales = {name: 1e-9 if name.startswith("modulus") else 1.0 for name in STEEL}
         values |= {name: _tidy(float(bodies[name]) * scales[name]) for name in STEEL}
     elif not math.isclose(point.reduced_modulus, STEEL_MODULUS, rel_tol=2e-3):
-        # steel has it to the digits that people write
+        # not steel, even with the few digits that users write
         note += f" E' = {point.reduced_modulus * 1e-9:.6g} GPa until a modulus is turned."
     file = str(surface["file"]) if kind == "map" else ""
     if file and files is not None:
@@ -270,7 +270,7 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
 
 
 def _oil(lubricant: Mapping[str, Any]) -> dict[str, Value]:
-    """Give the controls of the oil that are not always there."""
+    """Give the controls of the oil that depend on the case."""
     result: dict[str, Value] = {"eyring_stress": _tidy(float(lubricant["eyring_stress"]) * 1e-6)}
     if lubricant["shear_law"] == "carreau":
         result["carreau_stress"] = _tidy(float(lubricant["carreau_stress"]) * 1e-6)
@@ -288,5 +288,5 @@ def _oil(lubricant: Mapping[str, Any]) -> dict[str, Value]:
 
 
 def _tidy(value: float) -> float:
-    """Remove the rounding errors of a change of the unit."""
+    """Remove the rounding errors of a conversion of units."""
     return float(f"{value:.12g}")

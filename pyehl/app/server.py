@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The server of the page: on this machine alone, for browsers that were given its address."""
+"""The server of the page, which accepts requests of this machine only."""
 
 import logging
 import re
@@ -21,14 +21,14 @@ from pyehl.errors import InputError
 
 ADDRESS = "127.0.0.1"
 HOSTS = (ADDRESS, "localhost")
-"""What a browser on this machine calls it: any other name was bound to the loopback by others."""
-# A tab that was closed is gone after so long [ms]. One whose browser has to wait for those of many
-# others is not there yet: its page would be made a second time.
+"""Names of this machine in a browser; any other name was rebound to the loopback by an attacker."""
+# Lifetime of the session of a closed tab, and interval of the checks [ms]. A shorter lifetime would
+# end sessions whose browser still waits to connect, and their pages would be made twice.
 UNUSED, LOOK = 30_000, 3000
 
 
 class _Elsewhere(RequestHandler):
-    """Refuses what was not meant for this machine."""
+    """Refuses requests with another host name."""
 
     def prepare(self) -> None:
         raise HTTPError(403, f"the page is at {' and '.join(HOSTS)} alone")
@@ -43,7 +43,7 @@ def _only_for_hosts(routes: Routes) -> None:
 def make_server(
     start: Position, note: str, port: int = 0, made: Callable[[Page], None] | None = None
 ) -> Server:
-    """Give a server that listens already; port 0: any that is free.
+    """Make a server that is already listening; port 0: any free port.
 
     `made` is called with each page. InputError if the port is taken.
     """
@@ -53,11 +53,11 @@ def make_server(
         if made is not None:
             made(new)
 
-    # what a tab reports of itself is not for the terminal
+    # no log of requests on the terminal
     logging.getLogger("bokeh").setLevel(logging.ERROR)
     logging.getLogger("tornado").setLevel(logging.ERROR)
     try:
-        # pages of its own origin alone: the port has to be known before it is asked for
+        # only its own origin is allowed, so the port must be known before the server is made
         sockets, result = bind_sockets(ADDRESS, port)
         for socket in sockets:
             socket.close()
@@ -65,7 +65,7 @@ def make_server(
             {"/": Application(FunctionHandler(page))},
             address=ADDRESS,
             port=result,
-            # Bokeh also takes the origin that the request names as its Host: that is checked first
+            # Bokeh also allows the origin that equals the Host header, which is checked first
             allow_websocket_origin=[f"{host}:{result}" for host in HOSTS],
             check_unused_sessions_milliseconds=LOOK,
             unused_session_lifetime_milliseconds=UNUSED,

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files that were uploaded to one page: kept in a folder of their own, gone with the page.
+"""Files uploaded to one page, in a temporary folder that is removed with the page.
 
-The page knows their names alone. What a reader reports of a file names it, not where it lies.
+The page and its error messages show the names of the files, not their folder.
 """
 
 import re
@@ -14,13 +14,13 @@ from pyehl.errors import EhlError, InputError
 from pyehl.surfaces.reading import read_scan
 
 MAX_BYTES = 64 * 2**20
-"""Bytes of the largest file that is taken."""
-# What is read for the first time, and what could be read
+"""Maximum size of a file [bytes]."""
+# Subfolders of new files, and of files that could be read
 PLACES = ("new", "maps")
 
 
 class Uploads:
-    """Height maps by the names that they had."""
+    """Height maps by their original names."""
 
     def __init__(self) -> None:
         self._folder = tempfile.TemporaryDirectory(prefix="pyehl-app-")
@@ -29,10 +29,10 @@ class Uploads:
         self.files: dict[str, str] = {}
 
     def add(self, name: str, data: bytes, given: Mapping[str, Any] | None = None) -> str:
-        """Keep a height map if it can be read; returns where. A map of the same name is replaced.
+        """Store a readable height map, which may replace one of the same name; returns its path.
 
-        `given` is what a case states of it, as `check` takes it. InputError with the words of the
-        reader; what was there of this name is kept then.
+        `given` are the keys of the case, as in `check`. InputError with the message of the reader;
+        an earlier map of this name then stays.
         """
         base = re.sub(r"[^\w.\- ]", "_", Path(name.replace("\\", "/")).name).lstrip(".")
         if not base:
@@ -50,10 +50,10 @@ class Uploads:
         return str(path)
 
     def check(self, path: str, given: Mapping[str, Any]) -> None:
-        """Read a map; InputError with the words of the reader.
+        """Read a map; InputError with the message of the reader.
 
-        `given` has what a case states of it: ``length_x``, ``length_y`` [m] or 0, ``channel``,
-        ``height_unit``, ``lateral_unit``, each of them or none.
+        `given` may have the keys of the case ``length_x``, ``length_y`` [m] or 0, ``channel``,
+        ``height_unit`` and ``lateral_unit``.
         """
         known = {name: value for name, value in given.items() if value}
         try:
@@ -62,7 +62,7 @@ class Uploads:
             raise InputError(self.nameless(str(error))) from error
 
     def nameless(self, text: str) -> str:
-        """Leave out where the files lie."""
+        """Remove the folders of the files from a text."""
         for place in PLACES:
             text = text.replace(f"{self._folder.name}/{place}/", "")
         return text.replace(self._folder.name, "the page")

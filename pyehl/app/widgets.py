@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A control as the page shows it: a slider, a field to type in, and room for what is wrong."""
+"""A control on the page: a slider, a text field, and an error message."""
 
 from collections.abc import Callable
 from html import escape
@@ -17,13 +17,13 @@ NOTHING = {"display": "none"}
 
 
 class ControlWidget:
-    """A control on the page; `turned` is called with its name and value when the user turns it."""
+    """A control on the page; a change by the user calls `turned` with its name and value."""
 
     def __init__(
         self, control: Control | Choice, value: Value, turned: Callable[[str, Value], None]
     ) -> None:
         self.control, self._turned = control, turned
-        # while the page itself moves the control the user has not turned it
+        # set while the page itself changes the control
         self._quiet = False
         self.error = Div(
             text="", styles=NOTHING, width=WIDTH, margin=(0, 5, 0, 5), name=f"error_{control.name}"
@@ -47,7 +47,7 @@ class ControlWidget:
         self.field.on_change("value", self._typed)
 
     def set(self, value: Value) -> None:
-        """Move the control, unheard."""
+        """Set the control without calling `turned`."""
         self._quiet = True
         self.field.value = str(value) if isinstance(self.control, Choice) else _text(value)
         if isinstance(self.control, Control):
@@ -56,7 +56,7 @@ class ControlWidget:
         self.say("")
 
     def say(self, text: str) -> None:
-        """Say at the control what is wrong with it; '' for nothing."""
+        """Show an error at the control; '' for none."""
         self.error.text = escape(text)
         # a model that becomes visible would take the focus from the field
         self.error.styles = {**ERROR, "display": "block"} if text else NOTHING

@@ -13,7 +13,7 @@ from pyehl.display import with_error
 from pyehl.theory.moes_film import regime
 
 NM = 1e9
-# Film ratios below which roughness touches, and from which a film is thick
+# Film ratios below which asperities touch, and above which a film is thick
 TOUCHING, THICK = 1.0, 3.0
 
 
@@ -98,7 +98,7 @@ def rough_rows(result: Rough, film: Film | None = None) -> list[tuple[str, str]]
     else:
         rows.append(("no prediction", f"{p.friction.status}: {p.friction.message}"))
     if s["mu"] is not None:
-        # of the grid of the prediction, and not of the film that is shown above
+        # on the grid of the prediction, not that of the film shown above
         of = (
             f"; smooth {s['mu_smooth']:.4f}, {s['h_c_source']}"
             if s["mu_smooth"] is not None
@@ -107,7 +107,7 @@ def rough_rows(result: Rough, film: Film | None = None) -> list[tuple[str, str]]
         rows.append(("friction μ", f"{s['mu']:.4f}{of}"))
     if p.outside_range:
         rows.append(("outside of the range", ", ".join(p.outside_range)))
-    # of the film that is shown above, whose grid is another than that of the prediction
+    # the film shown above, whose grid differs from that of the prediction
     h_min = film.summary["h_min_m"] if film is not None and film.converged else s["h_min_m"]
     sigma = s["rms_height_m"]
     if h_min is not None and sigma > 0.0:
@@ -151,5 +151,5 @@ def python_lines(position: Position, points: int) -> str:
 
 
 def _quoted(value: bool | int | float | str) -> str:
-    """Write a value as Python does, texts in double quotes."""
+    """Write a value as in Python, texts in double quotes."""
     return json.dumps(value) if isinstance(value, str) else repr(value)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One thread that computes for one page: the newest job alone, never two at a time.
+"""One thread that computes for one page: only the newest job, never two at a time.
 
-Each job gets a number, larger than those before it: its generation. What a job reports has it, so
-that an answer older than the one shown can be ignored.
+Each job gets an increasing number, its generation, which its answers carry, so that the page can
+ignore an answer older than the one shown.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-# A job that has been overtaken may go on for so long [s], so that something is seen while a control
-# is turned without a pause
+# Time for which a superseded job may continue [s], so that results appear while a control moves
+# without a pause
 GRACE = 0.4
 
 
@@ -35,7 +35,7 @@ class JobContext:
         return self.newest() or time.monotonic() - self._began < GRACE
 
     def wait(self, seconds: float) -> bool:
-        """Wait until so long after its beginning; whether the job is the newest one still."""
+        """Wait until `seconds` after its beginning; whether the job is still the newest one."""
         left = seconds - (time.monotonic() - self._began)
         return self._worker.wait(self.generation, max(0.0, left))
 
@@ -65,7 +65,7 @@ class Worker:
         self._thread.start()
 
     def submit(self, job: Job) -> int:
-        """Submit a job in place of one that waits; returns its generation."""
+        """Submit a job in place of a waiting one; returns its generation."""
         with self._changed:
             self.generation += 1
             self._job = job
@@ -73,7 +73,7 @@ class Worker:
             return self.generation
 
     def wait(self, generation: int, seconds: float) -> bool:
-        """Wait so long, or until there is a newer job; whether there is none."""
+        """Wait for `seconds`, or until there is a newer job; whether there is none."""
         with self._changed:
             self._changed.wait_for(
                 lambda: self.closed or self.generation != generation, timeout=seconds
@@ -81,7 +81,7 @@ class Worker:
             return not self.closed and self.generation == generation
 
     def close(self) -> None:
-        """End the thread, after what it cannot leave: the cycle of a solver, or a prediction."""
+        """End the thread, after the current cycle of a solver or prediction."""
         with self._changed:
             self.closed = True
             self._job = None

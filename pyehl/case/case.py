@@ -25,9 +25,9 @@ def resolve(
 ) -> str:
     """Resolve a case: check it, and write every value of it as namelist text.
 
-    The text of a file called `origin`, for messages and for names of maps, or `from_file` that
-    file itself; `options` replace values. InputError with file, line and column, what was
-    expected, and the nearest name.
+    `text` is that of a file `origin`, for messages and for relative names of maps; `from_file`
+    reads that file instead. `options` replace values. InputError with file, line and column, what
+    was expected, and the nearest name.
     """
     origin = path_of(origin, "the name of a case")
     if from_file:
@@ -42,7 +42,7 @@ def resolve(
 class Case:
     """A case that can be solved: checked, with every value.
 
-    Options are everywhere the same: dicts ``{"grid": {"points": 65}}`` or ``{"grid.points": 65}``,
+    Options have the same forms everywhere: ``{"grid": {"points": 65}}``, ``{"grid.points": 65}``,
     or texts ``"grid.points=65"``; a whole number may be a float, as 65.0.
 
     Parameters
@@ -94,8 +94,8 @@ class Case:
             path = path_of(case, "case")
             if "\n" in path or path.lstrip().startswith("&"):
                 raise InputError(
-                    f"case = {reprlib.repr(path)}: expected the path of a case file; text of a "
-                    "case has pyehl.Case.from_text"
+                    f"case = {reprlib.repr(path)}: expected the path of a case file; for the "
+                    "text of a case use pyehl.Case.from_text"
                 )
             text = resolve("", path, given, from_file=True)
         object.__setattr__(self, "text", text)
@@ -127,7 +127,7 @@ class Case:
     def with_options(self, *options: Option) -> Case:
         """Replace some values: ``case.with_options("grid.points=257")`` is another case.
 
-        Defaults that follow from other values (the Roelands exponent, for one) follow the new ones.
+        Defaults that depend on other values, such as the Roelands exponent, are derived anew.
 
         Raises
         ------
@@ -168,14 +168,14 @@ class Case:
     def resolve(self) -> dict[str, dict[str, Any]]:
         """Give all groups and values.
 
-        Of keys that exclude each other only the one that holds is there: moes_m, moes_l or the SI
+        Of mutually exclusive keys only the effective ones are present: moes_m, moes_l or the SI
         values; amplitude or amplitude_over_film.
         """
         return namelist.values(self.text)
 
 
 def resolved_case(text: str) -> Case:
-    """Give the case of text that a case has resolved before, without reading it anew."""
+    """Make a case of text that is already resolved, without reading it again."""
     case = object.__new__(Case)
     object.__setattr__(case, "text", text)
     return case

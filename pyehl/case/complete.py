@@ -12,7 +12,7 @@ Step = Callable[[Draft], None]
 
 
 def check_time(draft: Draft) -> None:
-    """Refuse a number of steps beside a number of periods."""
+    """Refuse both a number of steps and a number of periods."""
     time = draft.settings.time
     if time.steps != 0 and time.max_periods != 0:
         what = "time.max_periods contradicts time.steps"
@@ -24,7 +24,7 @@ def check_no_machine(draft: Draft) -> None:
     for kind in MACHINES:
         if name := draft.first_given(key.name for key in GROUPS[kind]):
             command = "gear" if kind == "spur_gear" else "bearing"
-            what = f"&{kind} is no contact, but a machine element with many"
+            what = f"&{kind} is a machine element with many contacts"
             draft.refuse(name, what, f"'pyehl {command}', or a case without &{kind}")
 
 
@@ -79,7 +79,7 @@ STEPS: tuple[Step, ...] = (
 def complete(draft: Draft, *, strict: bool = True) -> None:
     """Complete a case whose keys are all valid by themselves, and check it.
 
-    Without `strict` all values that can be derived are, and nothing is refused.
+    Without `strict`, derive the values that can be derived, and refuse nothing.
     """
     if strict:
         for step in STEPS:

@@ -25,8 +25,8 @@ MIN_M, MAX_M = 0.1, 1e5
 MIN_STRAIN = 4e-7
 # Difference below which velocity ratios are equal
 ROUNDING = 1e-9
-# Keys that make the operating point, and powers of ten around their defaults that are common;
-# the radii of bodies around that of the ball
+# Keys of the operating point, and their usual ranges in powers of ten around the default; around
+# the radius of the ball for radii of bodies
 COMMON = {
     "contact.load": 3.0,
     "contact.load_per_length": 3.0,
@@ -45,7 +45,7 @@ COMMON = {
 
 
 def check_kind(draft: Draft) -> None:
-    """Find whether a contact is given by Moes numbers or by SI values; not by both."""
+    """Determine whether Moes numbers or SI values define the contact; refuse both."""
     moes = draft.first_given(f"contact.{key}" for key in MOES)
     si = draft.first_given(f"contact.{key}" for key in SI)
     draft.settings.contact.si = not moes
@@ -63,12 +63,12 @@ def check_kind(draft: Draft) -> None:
 
 
 def is_light(moes_m: float, pressure: float, modulus: float) -> bool:
-    """Whether a contact is loaded less than the solver takes it; p_h and reduced modulus [Pa]."""
+    """Whether the load is too small for the solver; p_h and reduced modulus in Pa."""
     return moes_m < MIN_M or pressure < MIN_STRAIN * modulus
 
 
 def check_operating_point(draft: Draft) -> None:
-    """Refuse implausible SI values of a contact, which mistakes in the units mostly make."""
+    """Refuse implausible SI values of a contact, mostly mistakes in the units."""
     c, oil = draft.settings.contact, draft.settings.lubricant
     point = physics.point(draft.settings)
     too_large = (
@@ -111,8 +111,8 @@ def check_operating_point(draft: Draft) -> None:
 
 
 def _most_unusual(draft: Draft) -> str:
-    """Of the given keys that make the operating point give the one with the least usual value."""
-    result, most = "lubricant.viscosity", -1.0
+    """Find the given key of the operating point with the most unusual value."""
+    result, maximum = "lubricant.viscosity", -1.0
     for name, common in COMMON.items():
         key = KEYS[name]
         value: Any = draft.settings.value(key)
@@ -121,8 +121,8 @@ def _most_unusual(draft: Draft) -> str:
             continue
         usual: Any = Contact().radius if key.key.startswith("radius") else key.default_value
         unusual = abs(math.log10(abs(value) / usual)) / common if value else math.inf
-        if unusual > most:
-            result, most = name, unusual
+        if unusual > maximum:
+            result, maximum = name, unusual
     return result
 
 
@@ -159,7 +159,7 @@ def complete_kinematics(draft: Draft) -> None:
 
 
 def _settle_velocity(draft: Draft, group: str, body: int) -> None:
-    """Find the velocity of the surface of a body; one that was given must agree."""
+    """Derive the velocity of the surface of a body; a given one must agree."""
     surface = getattr(draft.settings, group)
     slide_to_roll = draft.settings.contact.slide_to_roll
     side = 1.0 if body == 1 else -1.0
@@ -179,18 +179,19 @@ def _settle_velocity(draft: Draft, group: str, body: int) -> None:
 
 
 def _sliding(side: float, ratio: float) -> float:
-    """Slide-to-roll ratio by a velocity, free of the rounding of the difference: 0.02 for 1.01."""
+    """Slide-to-roll ratio of a velocity ratio, without rounding errors: 0.02 for 1.01."""
     return round(side * (ratio - 1.0) * 2e12) / 1e12
 
 
 # Relative difference below which values are equal
 ROUNDING_OF_RADII = 1e-6
-RIVALS = ("radius_x", "radius_y", "reduced_modulus", "radius", "moes_m", "moes_l", "radius_ratio")
-RIVALS_OF_LINE = ("radius", "reduced_modulus", "moes_m_line", "moes_l_line")
+# Keys that &bodies exclude unless they agree
+EXCLUDED = ("radius_x", "radius_y", "reduced_modulus", "radius", "moes_m", "moes_l", "radius_ratio")
+EXCLUDED_OF_LINE = ("radius", "reduced_modulus", "moes_m_line", "moes_l_line")
 
 
 def complete_radii(draft: Draft) -> None:
-    """Find both radii, and their ratio, from what was given."""
+    """Derive both radii and their ratio from the given keys."""
     _complete_bodies(draft)
     c = draft.settings.contact
     if not c.si:
@@ -224,7 +225,7 @@ def complete_radii(draft: Draft) -> None:
 
 
 def _complete_bodies(draft: Draft) -> None:
-    """Find reduced radii and reduced modulus of the bodies, if one of their keys was given."""
+    """Derive reduced radii and reduced modulus of the bodies, if one of their keys was given."""
     b, c = draft.settings.bodies, draft.settings.contact
     first = next((name for name in KEYS if name in draft.given and name[:7] == "bodies."), "")
     b.given = first != ""
@@ -245,7 +246,7 @@ def _complete_bodies(draft: Draft) -> None:
     # a resolved case has these with the bodies
     values = (c.radius_x, c.radius_y, c.reduced_modulus)
     agrees = [abs(v - f) <= ROUNDING_OF_RADII * f for v, f in zip(values, follows, strict=True)]
-    for name, agree in zip(RIVALS, [*agrees, *4 * [False]], strict=True):
+    for name, agree in zip(EXCLUDED, [*agrees, *4 * [False]], strict=True):
         if not agree and draft.is_given("contact", name):
             expected = "the bodies, or reduced radii and modulus, or Moes numbers"
             draft.contradict(first, f"contact.{name}", expected)
@@ -263,7 +264,7 @@ def _complete_line(draft: Draft, first: str, radius: float, modulus: float) -> N
         abs(value - follows) <= ROUNDING_OF_RADII * follows
         for value, follows in ((c.radius, radius), (c.reduced_modulus, modulus))
     ]
-    for name, agree in zip(RIVALS_OF_LINE, [*agrees, False, False], strict=True):
+    for name, agree in zip(EXCLUDED_OF_LINE, [*agrees, False, False], strict=True):
         if not agree and draft.is_given("contact", name):
             expected = "the bodies, or reduced radius and modulus, or Moes numbers"
             draft.contradict(first, f"contact.{name}", expected)
@@ -273,7 +274,7 @@ def _complete_line(draft: Draft, first: str, radius: float, modulus: float) -> N
 
 
 def _reduced(one: float, other: float) -> float:
-    """R with 1/R = 1/R_1 + 1/R_2, a flat body being 0; 0 where the gap does not open."""
+    """R with 1/R = 1/R_1 + 1/R_2; a flat body has 0, and 0 means that the gap does not open."""
     curvature = 0.0
     for radius in (one, other):
         if radius != 0.0:
@@ -282,7 +283,7 @@ def _reduced(one: float, other: float) -> float:
 
 
 def _check_open(draft: Draft, name: str, one: float, other: float, reduced: float) -> None:
-    """Refuse bodies whose gap does not open in one direction, or hardly does."""
+    """Refuse bodies whose gap does not open in one direction, or barely does."""
     key = f"bodies.{name}{1 if one < 0.0 or other == 0.0 else 2}"
     if reduced > 0.0:
         draft.check_range(f"contact.{name}", reduced, key, "the bodies")

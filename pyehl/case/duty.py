@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The duty of a contact: a file of quantities over time, and the domain that it needs.
+"""The duty of a contact, quantities over time from a file, and the domain that it needs.
 
 A file is comma-separated: a line of names with units, then a line for each time. Lines that are
 blank or begin with '#' are skipped.
@@ -52,7 +52,7 @@ NAME = re.compile(r"(\w+?)\s*(?:\[([^\]]*)\])?")
 
 
 def complete(draft: Draft) -> None:
-    """Take the values of a file, unless it is missing and a resolved case holds them."""
+    """Read the values of a file, unless it is missing and the resolved case has them."""
     duty = draft.settings.duty
     if not duty.file:
         return
@@ -109,7 +109,7 @@ def check(draft: Draft) -> None:
 
 
 def _times(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
-    """Find what is wrong with the times: key, that, what was expected."""
+    """Yield the errors in the times: key, error, what was expected."""
     duty, contact = draft.settings.duty, draft.settings.contact
     for key, values in lists.items():
         if len(values) != len(duty.time):
@@ -133,7 +133,7 @@ def _times(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
 
 
 def _values(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
-    """Find what is wrong with values: key, that, what was expected."""
+    """Yield the errors in the values: key, error, what was expected."""
     duty, contact = draft.settings.duty, draft.settings.contact
     if bool(duty.u1) != bool(duty.u2):
         expected = "both, or duty.mean_velocity and duty.slide_to_roll"
@@ -141,9 +141,9 @@ def _values(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
     if duty.u1 and (duty.mean_velocity or duty.slide_to_roll):
         what = "duty.u1 beside duty.mean_velocity or duty.slide_to_roll"
         yield "u1", what, "the speeds one way"
-    least = MIN_LOAD * (contact.load_per_length if contact.is_line else contact.load)
-    if duty.load and min(duty.load) < least:
-        expected = f"at least {to_text(least)}, {MIN_LOAD} of that of the case"
+    minimum = MIN_LOAD * (contact.load_per_length if contact.is_line else contact.load)
+    if duty.load and min(duty.load) < minimum:
+        expected = f"at least {to_text(minimum)}, {MIN_LOAD} of that of the case"
         yield "load", f"a load of {to_text(min(duty.load))}{_where(duty, duty.load)}", expected
     for key in ("radius_x", "radius_y", "viscosity", "inlet_film"):
         if min(lists.get(key, (1.0,))) <= 0.0:
@@ -168,7 +168,7 @@ def _values(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
 
 
 def _where(duty: Duty, values: Sequence[float]) -> str:
-    """Say where the minimum of values is: its time, and its line where there is a file."""
+    """Locate the minimum of values: its time, and its line if there is a file."""
     row = min(range(len(values)), key=values.__getitem__)
     if row >= len(duty.time):
         return ""
@@ -198,7 +198,7 @@ def _check_beside(draft: Draft) -> None:
 
 
 def check_domain(draft: Draft) -> None:
-    """Refuse a domain without an inlet on both sides where the motion turns."""
+    """Refuse a domain without an inlet on both sides if the motion reverses."""
     grid = draft.settings.grid
     if reverses(draft.settings) and abs(grid.x_inlet + grid.x_outlet) > SAME * grid.x_outlet:
         what = (
@@ -219,7 +219,7 @@ def refuse_duty(settings: Mapping[str, object]) -> None:
 
 
 def widening(settings: Settings) -> float:
-    """Give the largest size of the dry contact under the duty over that of the case."""
+    """Give the maximum size of the dry contact under the duty over that of the case."""
     duty, contact = settings.duty, settings.contact
     load = contact.load_per_length if contact.is_line else contact.load
     loads = duty.load or (load,) * len(duty.time)
@@ -231,7 +231,7 @@ def widening(settings: Settings) -> float:
 
 
 def reverses(settings: Settings) -> bool:
-    """Whether the mean velocity is negative at times."""
+    """Whether the mean velocity is ever negative."""
     duty = settings.duty
     sums = [a + b for a, b in zip(duty.u1, duty.u2, strict=False)]
     return min([*duty.mean_velocity, *sums, 0.0]) < 0.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The grid of a case: border and domain that follow from the contact, nodes that can be halved."""
+"""The grid of a case: border and domain derived from the contact, nodes that can be coarsened."""
 
 from pyehl.case import duty, physics
 from pyehl.case.key import short, to_text
@@ -7,13 +7,13 @@ from pyehl.case.settings import Draft
 
 # Minimum distance of the sides of the domain, in terms of the contact
 BEYOND_CONTACT = 1.05
-# Fewest and most intervals per side of the coarsest grid, as in fortran/grid/grid.f90
+# Minimum and maximum intervals per side of the coarsest grid, as in fortran/grid/grid.f90
 MIN_COARSEST, MAX_COARSEST = 16, 32
 ENDS = ("x_inlet", "x_outlet", "y_extent")
 
 
 def complete(draft: Draft) -> None:
-    """Find border, domain and nodes from the operating point, unless they are given."""
+    """Derive border, domain and nodes from the operating point, unless they are given."""
     g = draft.settings.grid
     find_points = not draft.is_given("grid", "points") and g.target_error <= 0.0
     ends = [getattr(g, end) if draft.is_given("grid", end) else None for end in ENDS]
@@ -21,7 +21,7 @@ def complete(draft: Draft) -> None:
     inlet = draft.settings.inlet
     if ends[0] is None and inlet.position_hertz > 0.0:
         ends[0] = -inlet.position_hertz
-    # with a duty a border that changes with time is not known
+    # the pressure at a border that a duty moves is not known
     if draft.settings.duty.time or max(inlet.position_hertz, inlet.film_hertz) > 0.0:
         border = border or "zero"
     result = physics.grid_defaults(
@@ -37,7 +37,7 @@ def complete(draft: Draft) -> None:
 
 
 def check_extent(draft: Draft) -> None:
-    """Refuse a domain that does not hold the contact."""
+    """Refuse a domain that does not contain the contact."""
     g, angle = draft.settings.grid, draft.settings.contact.angle
     if g.border == "flooded" and angle != 0.0 and draft.settings.contact.radius_ratio != 1.0:
         what = f"grid.border = 'flooded' with contact.angle = {to_text(angle)}"
@@ -57,7 +57,7 @@ def check_extent(draft: Draft) -> None:
 
 
 def check_points(draft: Draft) -> None:
-    """Refuse nodes whose intervals cannot be halved down to those of a coarsest grid."""
+    """Refuse a number of nodes that cannot be coarsened to a coarsest grid."""
     points = draft.settings.grid.points
     if _coarsest(points, points):
         if not draft.settings.contact.is_line:
@@ -91,7 +91,7 @@ def _check_rows(draft: Draft) -> None:
 
 
 def _coarsest(nx: int, ny: int) -> int:
-    """Intervals along X of the coarsest grid that halving leads to; 0 where there is none."""
+    """Intervals along X of the coarsest grid after halving; 0 if there is none."""
     x, y = nx - 1, ny - 1
     while x % 4 == y % 4 == 0 and min(x, y) >= 2 * MIN_COARSEST:
         x, y = x // 2, y // 2

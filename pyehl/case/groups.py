@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Groups of a case other than lubricant and surfaces, key by key.
 
-The one place for unit, allowed values, default and meaning of a key. A zero that is allowed there
-stands for "not given". What is no key is set when a case is completed.
+The single definition of unit, allowed values, default and meaning of a key. An allowed zero means
+"not given". Fields that are not keys are set when a case is completed.
 """
 
 from dataclasses import dataclass
@@ -136,9 +136,9 @@ class Contact:
     profile_y_2: tuple[float, ...] = numbers("m", "positions in profile_file_2; not for input")
     profile_drop_2: tuple[float, ...] = numbers("m", "drops of profile_file_2; not for input")
     si: bool = True
-    """Whether load, mean_velocity, radius and reduced_modulus hold, else moes_m and moes_l."""
+    """Whether load, mean_velocity, radius and reduced_modulus apply, else moes_m and moes_l."""
     round: bool = True
-    """Whether `radius` holds, else radius_x and radius_y."""
+    """Whether `radius` applies, else radius_x and radius_y."""
 
     @property
     def is_line(self) -> bool:
@@ -159,13 +159,13 @@ class Contact:
 
     @property
     def is_cylinder(self) -> bool:
-        """Whether it has one radius, and is not curved across the motion but by a profile."""
+        """Whether it has one radius, and no curvature across the motion except a profile."""
         return self.is_line or self.is_roller
 
 
 @dataclass(slots=True)
 class Bodies:
-    """``&bodies``: what makes reduced radii and modulus; it rules where a key of it is given."""
+    """``&bodies``: both bodies; if a key is given, they define reduced radii and modulus."""
 
     radius_x1: float = real(
         0.0,
@@ -181,12 +181,12 @@ class Bodies:
     poisson_1: float = real(0.3, "-", "[-0.5, 0.5]", "Poisson's ratio of body 1")
     poisson_2: float = real(0.3, "-", "[-0.5, 0.5]", "Poisson's ratio of body 2")
     given: bool = False
-    """Whether they hold."""
+    """Whether a key of the group is given."""
 
 
 @dataclass(slots=True)
 class Inlet:
-    """``&inlet``: an inlet that is short of oil."""
+    """``&inlet``: a starved inlet."""
 
     position: float = real(
         0.0, "m", "[0, 10]", "position of the meniscus ahead of the centre, with P = 0; 0: flooded"
@@ -212,7 +212,7 @@ class Inlet:
 
     @property
     def is_starved(self) -> bool:
-        """Whether the inlet is meant to be short of oil."""
+        """Whether the case has a starved inlet."""
         return max(self.position_hertz, self.film_hertz) > 0.0
 
 
@@ -286,7 +286,7 @@ class Time:
 
 @dataclass(slots=True)
 class Duty:
-    """``&duty``: what changes with time; what has no values stays that of the case."""
+    """``&duty``: quantities that change with time; the others are those of the case."""
 
     file: str = path("table over time: names with units, then a line for each time")
     interpolation: str = word("linear", "linear|cubic", "interpolation between two times")

@@ -17,7 +17,7 @@ ROUNDING = 1e-6
 
 
 def complete(draft: Draft) -> None:
-    """Find the inlet in Hertz units; P = 0 is at its border."""
+    """Convert the inlet to Hertz units."""
     s, inlet = draft.settings, draft.settings.inlet
     if not s.contact.si or not max(inlet.position, inlet.film) > 0.0:
         return
@@ -51,13 +51,13 @@ def check(draft: Draft) -> None:
         draft.contradict("grid.border", key, "grid.border = 'zero' or none")
     if position > 0.0:
         _agree(draft, "inlet.position", "grid.x_inlet", position, -s.grid.x_inlet)
-        least = BEYOND_CONTACT * point.reach_x
-        if position < least:
+        minimum = BEYOND_CONTACT * point.reach_x
+        if position < minimum:
             what = (
                 f"{key} is {short(position)} a ahead of the centre, and the contact reaches to "
                 f"{short(point.reach_x)} a"
             )
-            draft.refuse(key, what, f"at least {short(least)} a")
+            draft.refuse(key, what, f"at least {short(minimum)} a")
         draft.check_range("inlet.position_hertz", position, key, f"{key} and the contact")
         return
     draft.check_range("inlet.film_hertz", film, key, f"{key} and the contact")

@@ -8,12 +8,12 @@ from decimal import Decimal
 from functools import cached_property
 from typing import Any, TypeVar
 
-# Digits behind a point or before it that are written plainly
+# Range of numbers that are written without an exponent
 MIN_DECIMAL, MAX_DECIMAL = 1e-4, 1e7
 
 
 def to_text(value: bool | int | float | str | tuple[float, ...]) -> str:
-    """Give a value as a namelist has it: 0.4, 2.2e-8, 600.0, .true., 'harmonic'."""
+    """Write a value as in a namelist: 0.4, 2.2e-8, 600.0, .true., 'harmonic'."""
     if isinstance(value, float):
         return real_text(value)
     if isinstance(value, str):
@@ -42,12 +42,12 @@ def real_text(value: float) -> str:
 
 
 def quoted(text: str) -> str:
-    """Give a text between single quotes, inner quotes doubled as in a namelist."""
+    """Put a text between single quotes, inner quotes doubled as in a namelist."""
     return "'" + text.replace("'", "''") + "'"
 
 
 def short(value: float) -> str:
-    """Give four digits of a number, for messages: 0.04, 2.26e11."""
+    """Write four digits of a number, for messages: 0.04, 2.26e11."""
     mantissa, _, exponent = f"{value:.4g}".partition("e")
     return f"{mantissa}e{int(exponent)}" if exponent else mantissa
 
@@ -78,7 +78,7 @@ class Key:
     meaning
         In a sentence.
     default_value
-        What holds where it is not given and does not follow from other keys.
+        Value if it is neither given nor derived from other keys.
     """
 
     group: str
@@ -96,27 +96,27 @@ class Key:
 
     @cached_property
     def default(self) -> str:
-        """The default as a namelist has it."""
+        """The default as in a namelist."""
         return to_text(self.default_value)
 
     @cached_property
     def for_input(self) -> bool:
-        """Whether people give it, and not pyehl alone."""
+        """Whether users may give it, not only pyehl."""
         return not self.meaning.endswith("not for input")
 
     @cached_property
     def choices(self) -> list[str]:
-        """Words that are allowed."""
+        """Allowed words."""
         return self.allowed.split("|")
 
     @cached_property
     def by_word(self) -> dict[str, str]:
-        """Words that are allowed, by their small letters."""
+        """Allowed words by their lower-case form."""
         return {word.lower(): word for word in self.choices}
 
     @cached_property
     def interval(self) -> tuple[float, float, bool, bool]:
-        """Ends of what is allowed, whether the lower one is not, and whether 0 is besides."""
+        """Ends of the allowed interval, whether the lower is excluded, whether 0 is added."""
         inner = self.allowed.removeprefix("0 or ")
         low, high = inner[1:-1].split(",")
         return float(low), float(high), inner[0] == "(", inner != self.allowed
@@ -148,7 +148,7 @@ class Key:
         }[self.kind]
 
     def in_millimetres(self, number: str) -> str:
-        """Give '; 9.525 mm is 9.525e-3' for the number of a radius that will be in mm; else ''."""
+        """Give '; 9.525 mm is 9.525e-3' for the number of a radius probably in mm, or ''."""
         if not self.key.startswith("radius") or self.unit != "m" or re.search("[eEdD]", number):
             return ""
         if not NUMBER.fullmatch(number) or abs(float(number)) < 1.0:
@@ -160,7 +160,7 @@ T = TypeVar("T")
 
 
 def typed(kind: type[T], group: Mapping[str, Any]) -> T:
-    """Give values of a group of a resolved case as attributes; other keys have their defaults."""
+    """Give a group of a resolved case as attributes; missing keys have their defaults."""
     names = kind.__dataclass_fields__  # type: ignore[attr-defined]
     return kind(**{key: value for key, value in group.items() if key in names})
 

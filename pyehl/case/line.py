@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keys of a line contact in place of those of a point, and keys that it does not have."""
+"""Keys of a line contact that replace those of a point contact, and keys that it does not have."""
 
 from pyehl.case.settings import Draft
 
 SHAPE = "contact.shape = 'line'"
 LINE_KEYS = ("load_per_length", "moes_m_line", "moes_l_line")
-APART = "M and L of a line are other numbers than those of a point"
+MOES_DIFFER = "M and L of a line are other numbers than those of a point"
 STRIP = "the strip is as wide as the surfaces repeat, its cells are nearly square"
-# Keys of a point, and what to give in their place
+# Keys of a point contact, and what to give in their place
 POINT_KEYS = {
     "contact.load": "contact.load_per_length [N/m]",
-    "contact.moes_m": f"contact.moes_m_line: {APART}",
-    "contact.moes_l": f"contact.moes_l_line: {APART}",
+    "contact.moes_m": f"contact.moes_m_line: {MOES_DIFFER}",
+    "contact.moes_l": f"contact.moes_l_line: {MOES_DIFFER}",
     "contact.radius_x": "contact.radius: a line is not curved across the motion",
     "contact.radius_y": "contact.radius alone: a line is not curved across the motion",
     "contact.radius_ratio": "contact.radius alone: a line is not curved across the motion",
@@ -22,23 +22,23 @@ POINT_KEYS = {
     "grid.points_y": f"none: {STRIP}",
 }
 TRANSVERSE = 1e6
-"""Wavelength across the motion of a wave that does not vary there [b]."""
+"""Wavelength across the motion of a wave that does not vary in that direction [b]."""
 
 
 def complete(draft: Draft) -> None:
-    """Find the engine of the deflection, unless it is given."""
+    """Set the engine of the deflection, unless it is given."""
     if draft.settings.contact.is_line and not draft.is_given("solver", "deflection"):
         draft.settings.solver.deflection = "fft"
 
 
 def check_keys(draft: Draft) -> None:
-    """Refuse keys of a point beside a line, keys of a line beside a point, and what is missing."""
+    """Refuse keys of a point with a line, keys of a line with a point, and unsupported options."""
     s = draft.settings
     if not s.contact.is_line:
         name = draft.first_given(f"contact.{key}" for key in LINE_KEYS)
         if name:
             point = name.removesuffix("_line").replace("_per_length", "")
-            expected = f"{SHAPE}, or {point} of a point: {APART}"
+            expected = f"{SHAPE}, or {point} of a point: {MOES_DIFFER}"
             draft.refuse(name, f"{name} in a point contact", expected)
         return
     for name, expected in POINT_KEYS.items():

@@ -16,11 +16,11 @@ from pyehl.theory.heat import thermal_loading, thermal_reduction
 
 # Relative difference below which values are equal
 ROUNDING = 1e-6
-# Maximum pressure at which a law must have a viscosity, over the Hertz pressure; in so many steps
+# A law must have a viscosity up to this multiple of the Hertz pressure; number of steps to check it
 BEYOND_HERTZ, STEPS = 1.5, 300
-# A table of a single temperature holds within that [K]
+# Validity range of a table at a single temperature [K]
 SAME_TEMPERATURE = 0.01
-# Laws without constants of an oil, which rise up to any pressure
+# Laws without constants of an oil, which increase up to any pressure
 SIMPLE_VISCOSITY, SIMPLE_DENSITY = ("roelands", "barus"), ("dowson-higginson", "incompressible")
 # Roelands exponents of liquids: water has 0.04, mineral oils 0.6
 MIN_Z, MAX_Z = 1e-3, 2.0
@@ -28,9 +28,9 @@ CONTACT_IN_SI = "load, mean_velocity, radius and reduced_modulus"
 
 
 def complete_oil(draft: Draft) -> None:
-    """Take the constants of an oil where their keys are not given, and find a table."""
+    """Set the keys that are not given to the constants of the oil, and locate a table."""
     oil = draft.settings.lubricant
-    # the data sheet would rule over what was given
+    # the data sheet would override the given constants
     vogel = draft.is_given("lubricant", "vogel_viscosity", "vogel_b", "vogel_c")
     for constant in OILS[oil.name].constants if oil.name else ():
         of_sheet = constant.key.startswith("kinematic_")
@@ -38,7 +38,7 @@ def complete_oil(draft: Draft) -> None:
             setattr(oil, constant.key, constant.value)
     if not draft.is_given("lubricant", "viscosity_law") and oil.own_law:
         oil.viscosity_law = oil.own_law
-    # its constants hold with that volume
+    # its constants were determined with that law
     if not draft.is_given("lubricant", "density_law") and oil.own_law == "doolittle":
         oil.density_law = "tait"
     oil.inlet_law = oil.own_law if oil.own_law != oil.viscosity_law else ""
@@ -51,7 +51,7 @@ def complete_oil(draft: Draft) -> None:
 
 
 def complete_law(draft: Draft) -> None:
-    """Find viscosity, alpha and fall with temperature at the inlet by the law that gives them."""
+    """Derive viscosity, alpha and temperature coefficient of the inlet by the law of the oil."""
     oil = draft.settings.lubricant
     own = oil.own_law
     if not own:
@@ -67,16 +67,16 @@ def complete_law(draft: Draft) -> None:
         draft.refuse(_law_key(draft), what, expected)
     _follow(draft, "viscosity", viscosity)
     _follow(draft, "pressure_viscosity", alpha)
-    # an own value is another slope of the temperature in the laws of Roelands and Barus, and that
-    # of a table of a single temperature
+    # a given value is the temperature coefficient of the laws of Roelands and Barus, and of a table
+    # at a single temperature
     if not draft.is_given("lubricant", "temperature_viscosity"):
         oil.temperature_viscosity = slope
 
 
 def _take_table(draft: Draft) -> None:
-    """Read a table, and take its range where the keys of that are not given."""
+    """Read a table, and set its range unless the keys of the range are given."""
     oil = draft.settings.lubricant
-    # a resolved case holds its table, whose file may be elsewhere
+    # a resolved case contains its table, whose file may be elsewhere
     if oil.table and not (oil.table_pressure and not os.path.exists(oil.table)):
         states = read_table(oil.table)
         oil.table_temperature = tuple(state.temperature for state in states)
@@ -100,7 +100,7 @@ def _take_table(draft: Draft) -> None:
 
 
 def _follow(draft: Draft, key: str, follows: float) -> None:
-    """Take a value that follows where its key is not given, else it must be the given one."""
+    """Set a key that is not given to its derived value; refuse a given value that differs."""
     oil, by, name = draft.settings.lubricant, _law_key(draft), f"lubricant.{key}"
     temperature = f"{to_text(oil.temperature)} degC"
     value: float = getattr(oil, key)
@@ -162,7 +162,7 @@ def _check_constants(draft: Draft) -> None:
 
 
 def complete(draft: Draft) -> None:
-    """Find the exponent of Roelands' law, and the law of the prediction."""
+    """Set the exponent of Roelands' law, and the law of the prediction."""
     oil, psd = draft.settings.lubricant, draft.settings.psd
     if not draft.is_given("lubricant", "roelands_z"):
         slope = oil.pressure_viscosity * oil.roelands_p0
@@ -180,12 +180,12 @@ def complete(draft: Draft) -> None:
 
 
 def _check_roelands(draft: Draft) -> None:
-    """Refuse an exponent that no liquid has, at the key that it is from."""
+    """Refuse an exponent that no liquid has, at the key that it follows from."""
     oil = draft.settings.lubricant
     # without alpha the viscosity is constant
     if oil.pressure_viscosity <= 0.0 or MIN_Z <= oil.roelands_z <= MAX_Z:
         return
-    # a small one mostly has its reason in alpha, a large one in the viscosity
+    # a small one is mostly due to alpha, a large one to the viscosity
     alpha, viscosity = ["pressure_viscosity"], ["viscosity", "kinematic_viscosity_40"]
     by = viscosity + alpha if oil.roelands_z > MAX_Z else alpha + viscosity
     names = ("roelands_z", *by, "roelands_p0")
@@ -201,7 +201,7 @@ def _check_roelands(draft: Draft) -> None:
 
 
 def check_law(draft: Draft) -> None:
-    """Refuse laws that have no viscosity and density at all pressures of the contact."""
+    """Refuse laws without a viscosity or density at some pressure of the contact."""
     oil = draft.settings.lubricant
     simple = oil.viscosity_law in SIMPLE_VISCOSITY, oil.density_law in SIMPLE_DENSITY
     hertz = physics.point(draft.settings).pressure
@@ -247,7 +247,7 @@ def check_shear_law(draft: Draft) -> None:
 
 
 def check_boundary_film(draft: Draft) -> None:
-    """Refuse a boundary film without a size, what needs one, and a hardness that is too low."""
+    """Refuse a boundary film of a contact without SI units, keys that need one, a low hardness."""
     settings = draft.settings
     film, friction = settings.lubricant.boundary_film, settings.lubricant.boundary_friction
     hardness = settings.contact.hardness
@@ -287,7 +287,7 @@ MINERAL_Z = 0.6
 
 
 def complete_viscosity(draft: Draft) -> None:
-    """Find the viscosity, and its fall with temperature, from a data sheet."""
+    """Derive the viscosity and its temperature coefficient from a data sheet."""
     oil = draft.settings.lubricant
     sheet = oil.kinematic_viscosity_40, oil.kinematic_viscosity_100
     if not any(sheet):
@@ -323,7 +323,7 @@ def _check_use_of_sheet(draft: Draft) -> None:
     """Refuse keys that have no meaning without the viscosities of a data sheet."""
     oil = draft.settings.lubricant
     for key in ("temperature", "density_15", "thermal_expansion"):
-        # temperature and expansion serve laws of viscosity and density under temperature as well
+        # laws of viscosity and density over temperature also use temperature and expansion
         used = oil.knows_temperature or (key != "density_15" and oil.temperature_viscosity > 0.0)
         if used or not draft.is_given("lubricant", key):
             continue
@@ -336,10 +336,10 @@ def _check_use_of_sheet(draft: Draft) -> None:
 
 
 def complete_alpha(draft: Draft) -> None:
-    """Find alpha beside a data sheet, which has none.
+    """Estimate alpha for a data sheet, which has none.
 
-    That of Roelands' law with a z that does not change with temperature, the given one or that of
-    a mineral oil.
+    By Roelands' law with a z that does not change with temperature: the given one, or that of a
+    mineral oil.
     """
     oil = draft.settings.lubricant
     if draft.is_given("lubricant", "pressure_viscosity"):
@@ -364,7 +364,7 @@ def complete_alpha(draft: Draft) -> None:
 
 
 def check_heat(draft: Draft) -> None:
-    """Refuse heat without what it needs, and shear heating of the inlet beyond its formula."""
+    """Refuse heating without the keys that it needs, or outside the range of the inlet formula."""
     c, oil = draft.settings.contact, draft.settings.lubricant
     if oil.thermal_friction == "always":
         _need(draft, "thermal_friction", " = 'always'", "sliding speed", ("'auto'", "'auto'"))
@@ -385,7 +385,7 @@ def check_heat(draft: Draft) -> None:
 
 
 def _need(draft: Draft, key: str, value: str, velocity: str, others: tuple[str, str]) -> None:
-    """Refuse a key without a velocity in m/s, or how the viscosity falls with temperature."""
+    """Refuse a key without a velocity in m/s, or without the viscosity by temperature."""
     name = f"lubricant.{key}"
     if not draft.settings.contact.si:
         contact = "a contact given by moes_m and moes_l"
@@ -402,7 +402,7 @@ def _need(draft: Draft, key: str, value: str, velocity: str, others: tuple[str, 
 
 
 def check_density(draft: Draft) -> None:
-    """Refuse a law of density without its constants, and one beside another expansion."""
+    """Refuse a law of density without its constants, or with a second expansion coefficient."""
     oil = draft.settings.lubricant
     law = f"lubricant.density_law = '{oil.density_law}'"
     missing = f"{law} without its constants"

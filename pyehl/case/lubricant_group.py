@@ -218,7 +218,7 @@ class Lubricant:
 
     @property
     def own_law(self) -> str:
-        """The law that gives viscosity and alpha of the inlet: table, oil or key; '' for none."""
+        """Law of viscosity and alpha of the inlet: of the table, oil or key; '' for none."""
         if self.table or self.table_pressure:
             return "table"
         if self.name:
@@ -232,5 +232,5 @@ class Lubricant:
 
     @property
     def knows_temperature(self) -> bool:
-        """Whether a law of viscosity or density gives how the oil changes with temperature."""
+        """Whether a law of viscosity or density depends on temperature."""
         return self.own_law != "" or self.density_law in ("murnaghan", "tait")

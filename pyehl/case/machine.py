@@ -17,7 +17,7 @@ from pyehl.case.writer import case_text
 from pyehl.errors import InputError
 from pyehl.given import Option, options_of, path_of
 
-# Quantities of each contact that follow from the machine, and are no keys of its file
+# Keys of a contact that follow from the machine and must not be in its file
 FOLLOWS = (
     *(f"contact.{key}" for key in ("moes_m", "moes_l", "radius_ratio", "load", "mean_velocity")),
     *(f"contact.{key}" for key in ("shape", *LINE_KEYS)),
@@ -36,7 +36,7 @@ CAUSES = {
 
 @dataclass(frozen=True, slots=True)
 class Machine:
-    """A machine element, with the keys that its contacts share.
+    """A machine element, with the keys that its contacts have in common.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class Machine:
         return 2.0 / (one + other)
 
     def refuse(self, key: str, what: str, expected: str) -> NoReturn:
-        """Refuse the machine at a key of its group, whether it was given or not."""
+        """Refuse the machine at a key of its group, or at the first given one."""
         name = f"{self.kind}.{key}"
         self.draft.refuse(name if name in self.draft.given else self._first(), what, expected)
 
@@ -85,7 +85,7 @@ class Machine:
                 self.refuse(key, what, f"{known.meaning}: {positive}")
 
     def text(self) -> str:
-        """Give it as namelist text: its group whole, of the others what was given."""
+        """Write it as namelist text: its whole group, and the given keys of the others."""
         groups = {self.kind: [key.key for key in GROUPS[self.kind]]}
         for given in self.draft.given:
             group, _, name = given.partition(".")
@@ -110,10 +110,10 @@ class Machine:
         bodies: bool = True,
         may_be_light: bool = False,
     ) -> str:
-        """Give the resolved case of one contact, of values by ``group.key``.
+        """Resolve the case of one contact with values by ``group.key``.
 
-        Without `bodies` it has the reduced modulus in their place; `may_be_light` as of `Draft`.
-        InputError, which points to the machine, if there is no such contact; `place` names it.
+        Without `bodies` it has the reduced modulus in their place; `may_be_light` as in `Draft`. If
+        the case is not acceptable, InputError points to the machine, and `place` names the contact.
         """
         draft = Draft(copy.deepcopy(self.draft.settings), self.draft.sources)
         draft.may_be_light = may_be_light
@@ -142,7 +142,7 @@ def read_machine(
     options: Iterable[Option],
     kinds: Sequence[str],
 ) -> Machine:
-    """Read a file with one of some groups of machines, or without a file the options alone.
+    """Read a file with one of the groups `kinds`, or without a file the options alone.
 
     InputError with file, line and column if it is not acceptable.
     """
@@ -164,6 +164,6 @@ def read_machine(
     if result[0] not in kinds:
         command = "gear" if result[0] == "spur_gear" else "bearing"
         draft.refuse(first[0], f"&{result[0]} is no {wanted}", f"'pyehl {command}' takes it")
-    if rival := draft.first_given(FOLLOWS):
-        draft.contradict(rival, first[0], f"one of them: {rival} follows from &{result[0]}")
+    if derived := draft.first_given(FOLLOWS):
+        draft.contradict(derived, first[0], f"one of them: {derived} follows from &{result[0]}")
     return Machine(result[0], getattr(draft.settings, result[0]), draft)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Groups of a file that describes a machine element in place of one contact, key by key.
 
-As of `pyehl.case.groups`; a zero that is allowed stands for "not given".
+As in `pyehl.case.groups`, an allowed zero means "not given".
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ LENGTH = "0 or [1e-4, 10]"
 
 
 def diameter(what: str) -> Any:  # noqa: ANN401
-    """Describe the diameter of a ring, of which the pitch diameter is the mean."""
+    """Describe a diameter whose mean with the other one is the pitch diameter."""
     return real(0.0, "m", LENGTH, f"{what}, for the pitch diameter alone")
 
 

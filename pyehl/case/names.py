@@ -38,7 +38,7 @@ HARDNESS = (
     "contact.hardness [Pa] limits the pressure of the solids, with lubricant.boundary_film; "
     "without it they stay elastic, and the assessment of a result names pressures above 4.2 GPa"
 )
-# Names that people give to what is called otherwise here, or is not modelled; in what group
+# Common names of quantities that have another key or are not modelled, and their group ('': any)
 OTHER_NAMES: dict[tuple[str, str], str] = {
     (group, name): sentence
     for names, group, sentence in (
@@ -67,7 +67,7 @@ OTHER_NAMES: dict[tuple[str, str], str] = {
 
 
 def unknown_key(name: str, group: str) -> str:
-    """Give what to expect in place of an unknown key of a group."""
+    """Suggest what to write in place of an unknown key of a group."""
     lower = name.lower()
     sentence = OTHER_NAMES.get((group, lower)) or OTHER_NAMES.get(("", lower))
     if sentence:
@@ -79,7 +79,7 @@ def unknown_key(name: str, group: str) -> str:
 
 
 def unknown_group(name: str, prefix: str = "") -> str:
-    """Give what to expect in place of an unknown group."""
+    """Suggest what to write in place of an unknown group."""
     sentence = OTHER_NAMES.get(("", name.lower()))
     if sentence:
         return sentence
@@ -92,13 +92,13 @@ def groups(prefix: str) -> str:
 
 
 def did_you_mean(name: str, names: Iterable[str], prefix: str = "") -> str:
-    """Give the end of a message, '; did you mean ...?', where a name is near; else nothing."""
+    """Give the end of a message, '; did you mean ...?', or '' if no name is near."""
     near = nearest(name, names)
     return f"; did you mean '{prefix}{near}'?" if near else ""
 
 
 def nearest(name: str, names: Iterable[str]) -> str:
-    """Give the word that the fewest edits make of a name; '' when none is near.
+    """Give the known word with the fewest edits from a name; '' if none is near.
 
     A beginning of a word counts as near: 'visc' for 'viscosity'.
     """

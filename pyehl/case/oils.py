@@ -15,7 +15,7 @@ from pyehl.case.key import NUMBER, to_text
 from pyehl.case.source import Source, read_text
 from pyehl.errors import InputError
 
-# K that a constant for theta in K is shifted by
+# Temperature of 0 degC [K], for constants with theta in K
 KELVIN = 273.15
 
 
@@ -36,7 +36,7 @@ class OilConstants:
     viscosity_law: str
     title: str
     source: str
-    range: str  # of the measurements behind the constants, as text
+    range: str  # range of the measurements of the constants, as text
     constants: tuple[Constant, ...]
 
 
@@ -116,19 +116,19 @@ OILS = {
     )
 }
 
-# What is accepted in each column
+# Accepted range of each column
 COLUMNS = {
     "pressure_Pa": (0.0, 1e11),
     "temperature_degC": (-100.0, 500.0),
     "viscosity_Pa_s": (1e-6, 1e15),
 }
-# Highest pressure [Pa] that counts as ambient: it changes the viscosity by some 2 %
+# Maximum pressure [Pa] that counts as ambient: it changes the viscosity by about 2 %
 AMBIENT = 1e6
 HEADER = "a line with the names pressure_Pa, temperature_degC and viscosity_Pa_s"
 
 
 class State(NamedTuple):
-    """A measured state, and the line that has it."""
+    """A measured state, and the position of its line."""
 
     temperature: float
     pressure: float
@@ -153,7 +153,7 @@ def read_table(path: str) -> list[State]:
 
 
 def _states(source: Source) -> Iterator[State]:
-    """Read all lines behind the names."""
+    """Read all lines after the names."""
     places: list[int] = []
     first = 0
     for line in source.text.removesuffix("\n").split("\n"):
@@ -191,7 +191,7 @@ def _value(source: Source, first: int, line: str, place: int, column: str) -> fl
 
 
 def _check(source: Source, states: list[State]) -> None:
-    """Refuse an isotherm without two pressures, the first ambient, or that does not rise."""
+    """Refuse an isotherm without an ambient and a higher pressure, or that does not increase."""
 
     def refuse(state: State, what: str, expected: str) -> NoReturn:
         source.refuse(state.first, state.end, what, expected)

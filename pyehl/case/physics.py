@@ -14,7 +14,7 @@ from pyehl.extension import cases, lubricants
 from pyehl.types import Array
 
 BORDERS = ("", "zero", "flooded")
-"""As the extension counts them; '' is to be found."""
+"""In the order of their numbers in the extension; '' is to be derived."""
 PROFILES = KEYS["contact.profile"].choices
 Contact = tuple[float | tuple[float, ...], ...]
 
@@ -43,7 +43,7 @@ class Domain(NamedTuple):
 
 
 def _contact(settings: Settings) -> Contact:
-    """Give what makes the contact, in the order of the extension."""
+    """Give the arguments of the extension that define the contact."""
     c, oil = settings.contact, settings.lubricant
     load, moes_m, moes_l = c.load, c.moes_m, c.moes_l
     if c.is_line:
@@ -62,7 +62,7 @@ def _contact(settings: Settings) -> Contact:
 
 
 def point(settings: Settings) -> Point:
-    """Operating point of a case, without the heat of the inlet."""
+    """Operating point of a case, without shear heating of the inlet."""
     return _point(_contact(settings))
 
 
@@ -81,12 +81,12 @@ def grid_defaults(
     widening: float = 1.0,
     reverses: bool = False,
 ) -> Domain:
-    """Border, domain and nodes that a contact needs; '', None and 0 are to be found.
+    """Border, domain and nodes that a contact needs; '', None and 0 are to be derived.
 
-    Under a duty the contact is `widening` times as large at times, and where the motion
-    `reverses` the domain is symmetric.
+    A duty enlarges the contact up to `widening` times; if the motion `reverses`, the domain is
+    symmetric.
 
-    Nodes along X of smooth surfaces are twice as many where fewer miss much of the film.
+    Smooth surfaces have twice as many nodes along X if the film would otherwise be inaccurate.
     """
     smooth = settings.surface.kind == settings.second_surface.kind == "smooth"
     oil = settings.lubricant
@@ -126,7 +126,7 @@ def sheet(
 def inlet(group: str) -> tuple[float, float, float]:
     """Viscosity [Pa s], alpha [1/Pa] and -(d eta/dT)/eta [1/K] by the law of a lubricant.
 
-    `group` is ``&lubricant``. The viscosity is not finite where the law has none.
+    `group` is ``&lubricant``. The viscosity is not finite if the law has none.
     """
     viscosity, alpha, slope, status, _, message = cases.inlet(group.encode())
     check(status, message)

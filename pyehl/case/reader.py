@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From the text of a case and options group.key=value to values, each with its place.
+"""Parse the text of a case and options group.key=value into values, each with its place.
 
-Every fault ends in one message with its place.
+Every error gives one message with its place.
 """
 
 import re
@@ -22,15 +22,15 @@ from pyehl.case.source import (
     OPEN_STRING,
     SLASH,
     STRING,
-    Piece,
     Source,
+    Token,
 )
 from pyehl.case.value import BadValue, set_value, value_of
 from pyehl.errors import InputError
 from pyehl.given import TYPED
 
 MARKS = ("! default", "! derived")
-"""Ends of lines of a written case whose keys were not given: defaults, and what follows."""
+"""Ends of lines of a resolved case whose keys were not given: defaults and derived values."""
 NO_VALUE = (COMMA, SLASH, EQUALS, GROUP, END)
 
 
@@ -44,8 +44,8 @@ def read(text: str, origin: str, options: Iterable[str] = ()) -> Draft:
     origin
         Name of the file it came from, for messages and for relative file names.
     options
-        Options group.key=value that replace values of the text, behind '--set ' where a person
-        typed them so.
+        Options group.key=value that replace values of the text, after '--set ' if they come from
+        the command line.
     """
     sources = [
         Source(origin, text + "\n"),
@@ -73,11 +73,11 @@ class _Groups:
         self.draft, self.replaced = draft, replaced
         self.source = draft.sources[0]
         self.position = 0
-        self.group, self.opening = "", Piece(END, 0, 0, "")
+        self.group, self.opening = "", Token(END, 0, 0, "")
         self.marked: set[str] = set()
 
     def read(self) -> set[str]:
-        """Read all groups; the keys that the text marks as not set."""
+        """Read all groups; returns the keys that the text marks as not given."""
         self.source.check_characters()
         seen: set[str] = set()
         while (opening := self._next()).kind != END:
@@ -96,12 +96,12 @@ class _Groups:
                 key = self._key(name, key)
         return self.marked
 
-    def _next(self) -> Piece:
-        piece = self.source.scan(self.position)
-        self.position = min(piece.end, len(self.source.text))
-        return piece
+    def _next(self) -> Token:
+        token = self.source.scan(self.position)
+        self.position = min(token.end, len(self.source.text))
+        return token
 
-    def _opened(self, opening: Piece, seen: set[str]) -> str:
+    def _opened(self, opening: Token, seen: set[str]) -> str:
         """Open a known group for the first time."""
         group = opening.text.lower()
         expected = f"one of the groups {names.groups('&')}"
@@ -118,7 +118,7 @@ class _Groups:
         self.source.refuse(opening.first, opening.end, what, expected)
 
     def _written_line(self) -> Key | None:
-        """Read a line as the writer makes it, which is quick; None where it is not so."""
+        """Read a line in the form of the writer, the fast path; None for another form."""
         text, start = self.source.text, self.position
         if text[start : start + 1] == "\n":
             start += 1
@@ -135,7 +135,7 @@ class _Groups:
         self.position = end
         return key
 
-    def _key(self, name: Piece, before: Key | None) -> Key:
+    def _key(self, name: Token, before: Key | None) -> Key:
         """Read a key, whose name was read, and its value."""
         source = self.source
         if name.kind in (GROUP, END):
@@ -152,7 +152,7 @@ class _Groups:
             self.marked.add(key.name)
         return key
 
-    def _set(self, key: Key, name: tuple[int, int], value: Piece) -> None:
+    def _set(self, key: Key, name: tuple[int, int], value: Token) -> None:
         try:
             set_value(self.draft, key, 0, name, value)
         except InputError:
@@ -160,8 +160,8 @@ class _Groups:
             if key.name not in self.replaced:
                 raise
 
-    def _refuse_list(self, name: Piece, key: Key) -> None:
-        """Refuse a second value; every key takes one. `name` stands behind a comma."""
+    def _refuse_list(self, name: Token, key: Key) -> None:
+        """Refuse a second value; every key takes one. `name` follows a comma."""
         if name.kind == COMMA:
             what = "two commas behind "
         elif name.kind in (STRING, OPEN_STRING) or (
@@ -173,8 +173,8 @@ class _Groups:
         expected = "one value, then the next key or '/'"
         self.source.refuse(name.first, name.end, what + key.name, expected)
 
-    def _equals(self, name: Piece, before: Key | None) -> None:
-        """Read '=' behind a key; without it, say what the text behind the last value may be."""
+    def _equals(self, name: Token, before: Key | None) -> None:
+        """Read '=' after a key; if it is missing, refuse the text after the last value."""
         behind = self.position
         if name.kind == ATOM:
             if self._next().kind == EQUALS:
@@ -190,12 +190,12 @@ class _Groups:
                 expected = f"{before.expected} and nothing else, then the next key or '/'"
         self.source.refuse(name.first, name.end, what, expected)
 
-    def _check_value(self, key: Key, value: Piece) -> None:
-        """Refuse a value that is not there, and a decimal comma as in '0,84'."""
+    def _check_value(self, key: Key, value: Token) -> None:
+        """Refuse a missing value, and a decimal comma as in '0,84'."""
         source = self.source
         missing = value.kind in NO_VALUE
         if value.kind == ATOM:
-            # the key behind it?
+            # it may be the next key
             equals = source.scan(self.position).kind == EQUALS
             missing = equals and re.match("[A-Za-z_]", value.text) is not None
         if missing:
@@ -207,10 +207,10 @@ class _Groups:
             source.refuse(value.end, value.end + 1, what, expected)
 
 
-# The cases of a study differ in a line or two
+# The cases of a study differ in one or two lines
 @lru_cache(maxsize=2048)
 def _written(group: str, line: str) -> tuple[Key, Value, tuple[int, int, int, int], bool] | None:
-    """Give key, value and their places of a line that the writer makes, and whether it is marked.
+    """Give key, value and places of a line in the form of the writer, and whether it is marked.
 
     None for any other line, and for a value that is not acceptable.
     """
@@ -225,14 +225,14 @@ def _written(group: str, line: str) -> tuple[Key, Value, tuple[int, int, int, in
     is_string = match[2][0] == "'"
     text = match[2][1:-1].replace("''", "'") if is_string else match[2]
     try:
-        value = value_of(key, Piece(STRING if is_string else ATOM, 0, 0, text), is_option=False)
+        value = value_of(key, Token(STRING if is_string else ATOM, 0, 0, text), is_option=False)
     except BadValue:
         return None
     return key, value, spans, marked
 
 
-def _find(source: Source, group: str, name: Piece, given: dict[str, Place]) -> Key:
-    """Give a key by its name; unknown and repeated keys are faults."""
+def _find(source: Source, group: str, name: Token, given: dict[str, Place]) -> Key:
+    """Find a key by its name; unknown and repeated keys are errors."""
     key = KEYS.get(f"{group}.{name.text.lower()}")
     if key is None:
         what = f"unknown key '{name.text}' in &{group}"
@@ -244,7 +244,7 @@ def _find(source: Source, group: str, name: Piece, given: dict[str, Place]) -> K
 
 
 def _option(source: Source) -> tuple[Key, int]:
-    """Give the key of an option group.key=value, and where its name begins."""
+    """Find the key of an option group.key=value, and where its name begins."""
     text = source.text
     equals = text.find("=")
     dot = text.find(".", 0, max(equals, 0))
@@ -254,7 +254,7 @@ def _option(source: Source) -> tuple[Key, int]:
     if group not in GROUPS:
         expected = names.unknown_group(group)
         source.refuse(0, max(1, dot), f"unknown group '{group}'", expected)
-    name = Piece(ATOM, dot + 1, max(dot + 2, equals), text[dot + 1 : equals].strip(" "))
+    name = Token(ATOM, dot + 1, max(dot + 2, equals), text[dot + 1 : equals].strip(" "))
     return _find(source, group, name, {}), name.first
 
 
@@ -278,15 +278,15 @@ def _read_option(draft: Draft, number: int) -> None:
         source.refuse(value.end, last, what, "nothing more")
     if value.kind != STRING:
         # without quotes the rest of the option is the value, whatever it looks like
-        value = Piece(ATOM, first, last, text[first:last])
+        value = Token(ATOM, first, last, text[first:last])
     set_value(draft, key, number, (name_first, max(name_first + 1, equals)), value)
 
 
 def _settled(draft: Draft, marked: set[str]) -> Draft:
-    """Take a marked value as not given if it is what follows from those that were given.
+    """Treat a marked value as not given if it follows from the given ones.
 
-    So an option on a written case does the same as on the case that it was written from, and a
-    value that was changed counts as given.
+    An option then has the same effect on a resolved case as on the original one, and a value that
+    was edited counts as given.
     """
     trial = Draft(Settings(), draft.sources[:1])
     settled = Draft(Settings(), draft.sources)

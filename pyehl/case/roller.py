@@ -26,7 +26,7 @@ KEYS_OF = {
 }
 """Keys of each profile."""
 BODIES = ("", "_2")
-"""What the keys of each body end with."""
+"""Suffixes of the keys of each body."""
 KEYS = (
     *("length", "misalignment"),
     *(f"{k}{end}" for end in BODIES for k in ("profile", *chain(*KEYS_OF.values()))),
@@ -37,22 +37,22 @@ OTHERS = (
     *("moes_m", "moes_l", "radius_ratio", "radius_x", "radius_y", "angle"),
     *("load_per_length", "moes_m_line", "moes_l_line"),
 )
-# Largest drop over the radius; lengths over half the width of the line contact
+# Maximum drop over the radius; minimum and maximum length over half the width of the line contact
 DEEPEST = 0.1
 LENGTHS = 4.0, 400.0
-# Largest share of the length that a table may end before the roller
+# Fraction of the length by which a table may end before the roller
 ROUNDING = 1e-6
 
 
 def unused(contact: Contact) -> Iterator[str]:
-    """Keys of the profiles that a roller does not have."""
+    """Keys of the profiles that the roller does not use."""
     for end in BODIES:
         own = getattr(contact, f"profile{end}")
         yield from (f"{k}{end}" for kind, keys in KEYS_OF.items() if kind != own for k in keys)
 
 
 def complete(draft: Draft) -> None:
-    """Read the table of a profile, unless it is missing and a resolved case holds it."""
+    """Read the table of a profile, unless it is missing and the resolved case has it."""
     c = draft.settings.contact
     for end in BODIES:
         key = f"profile_file{end}"
@@ -82,7 +82,7 @@ def _read_table(name: str) -> tuple[tuple[float, ...], ...]:
 
 
 def check_keys(draft: Draft) -> None:
-    """Refuse a roller with missing keys, with keys of other shapes, or with what it cannot have."""
+    """Refuse a roller with missing keys, keys of other shapes, or unsupported options."""
     s, c = draft.settings, draft.settings.contact
     if not c.is_roller:
         name = draft.first_given(f"contact.{key}" for key in KEYS)
@@ -131,7 +131,7 @@ def check_length(draft: Draft) -> None:
 
 
 def _check_profile(draft: Draft) -> None:
-    """Refuse profiles that miss a key, have one of another, or are too deep together."""
+    """Refuse profiles with a missing key, a key of another profile, or too large a total drop."""
     c = draft.settings.contact
     for number, end in enumerate(BODIES):
         _check_body(draft, c.of_body(number + 1), end)
@@ -144,7 +144,7 @@ def _check_profile(draft: Draft) -> None:
 
 
 def _check_body(draft: Draft, own: Profile, end: str) -> None:
-    """Refuse keys of the profile of one body that do not belong together."""
+    """Refuse inconsistent keys of the profile of one body."""
     c, profile = draft.settings.contact, f"contact.profile{end}"
     for kind, keys in KEYS_OF.items():
         for key in keys:

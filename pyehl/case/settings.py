@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The groups of a case with their values and keys, and a case that is being completed."""
+"""The groups of a case with their values and keys, and a case while it is completed."""
 
 import os
 from collections.abc import Iterable, Iterator
@@ -41,7 +41,7 @@ class Settings:
         return result
 
     def set(self, key: Key, value: Value) -> None:
-        """Give a key a value."""
+        """Set the value of a key."""
         setattr(getattr(self, key.group), key.key, value)
 
 
@@ -65,7 +65,7 @@ MACHINES = ("ball_bearing", "roller_bearing", "spur_gear")
 """Groups of machine elements, from which the contacts follow; no case of one contact has them."""
 
 LONGEST_PATH = 1024
-"""Of a file name, in bytes."""
+"""Maximum length of a file name in bytes."""
 
 
 class Place(NamedTuple):
@@ -80,7 +80,7 @@ class Place(NamedTuple):
 
 @dataclass(slots=True)
 class Draft:
-    """Values of a case that is read.
+    """A case while it is read and completed.
 
     Attributes
     ----------
@@ -91,7 +91,7 @@ class Draft:
     given
         Places of the keys that were given, by ``group.key``.
     may_be_light
-        Whether a very low load is plausible, as of one of many contacts of a machine.
+        Whether a very low load is plausible, as for one of many contacts of a machine.
     """
 
     settings: Settings
@@ -104,7 +104,7 @@ class Draft:
         return any(f"{group}.{key}" in self.given for key in keys)
 
     def first_given(self, names: Iterable[str]) -> str:
-        """Of some keys give the one that stands first: file before options; '' for none."""
+        """Give the first of some keys that was given, file before options; '' for none."""
         return min(
             (n for n in names if n in self.given), key=lambda n: self.given[n][:2], default=""
         )
@@ -118,7 +118,7 @@ class Draft:
         source.refuse(place.value_first, place.value_end, what, expected)
 
     def contradict(self, one: str, other: str, expected: str, why: str = "") -> NoReturn:
-        """Refuse two keys that exclude each other, at the one that stands later."""
+        """Refuse two keys that exclude each other, at the later one."""
         if one not in self.given or (other in self.given and self.given[one] < self.given[other]):
             one, other = other, one
         what = f"{one} contradicts {other}" + (f": {why}" if why else "")
@@ -135,8 +135,8 @@ class Draft:
     def absolute(self, name: str, path: str) -> str:
         """Make the name of a file absolute.
 
-        One in the case file starts at the folder of that file, one in an option at the working
-        folder.
+        A name in the case file is relative to the folder of that file, one in an option to the
+        working folder.
         """
         if path[:1] != "/":
             if name in self.given and self.given[name].source == 0:
@@ -145,7 +145,7 @@ class Draft:
             if path[:1] != "/":
                 path = f"{os.getcwd()}/{path}"
         if path.endswith(" "):
-            # a namelist cannot distinguish it from the name without
+            # in a namelist it equals the name without the blank
             self.refuse(name, f"{name}: the name ends with a blank", "a file of another name")
         if len(os.fsencode(path)) > LONGEST_PATH:
             what = f"{name}: the full name is longer than {LONGEST_PATH} characters"

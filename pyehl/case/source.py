@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A text with a name, messages that point into it, and its pieces with their positions.
+"""A named text: its tokens with positions, and error messages that point into it.
 
-Positions are those of Python: the first character, and the one behind the last.
+Positions are those of Python slices: the first character, and the one after the last.
 """
 
 import os
@@ -13,7 +13,7 @@ from typing import NamedTuple, NoReturn
 from pyehl.case.key import NUMBER
 from pyehl.errors import InputError
 
-# Longest part of a line that a message shows
+# Maximum number of characters of a line that a message shows
 SHOWN = 100
 CONTROL = re.compile(r"[\x00-\x08\x0a-\x1f\x7f]")
 NO_TEXT = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
@@ -24,8 +24,8 @@ END, GROUP, ATOM, STRING, OPEN_STRING, EQUALS, COMMA, SLASH = (
     *("equals", "comma", "slash"),
 )
 _ATOM = r"[^ \t\r\n,/=!'\"&;]"
-# Blanks and comments, then a piece; a character that can begin no piece is a piece of its own
-PIECE = re.compile(
+# Blanks and comments, then a token; a character that can begin no token is a token of its own
+TOKEN = re.compile(
     r"(?>(?:[ \t\r\n]+|![^\n]*)*)"
     rf"(?:(?P<atom>{_ATOM}+)|(?P<equals>=)|(?P<comma>,)|(?P<slash>/)|(?P<group>&{_ATOM}*)"
     r"|(?P<string>'(?:[^'\n]|'')*'(?!')|\"(?:[^\"\n]|\"\")*\"(?!\"))"
@@ -33,8 +33,8 @@ PIECE = re.compile(
 )
 
 
-class Piece(NamedTuple):
-    """One piece of a text.
+class Token(NamedTuple):
+    """One token of a text.
 
     `text` has the characters of an atom, the name of a group without '&', a string without its
     quotes.
@@ -53,7 +53,7 @@ class Source:
     Attributes
     ----------
     name
-        What a message calls it: a file name, or the option as it was given.
+        Its name in messages: a file name, or the option as it was given.
     text
         Ends with a line end.
     has_lines
@@ -64,11 +64,11 @@ class Source:
     text: str
     has_lines: bool = True
 
-    def scan(self, position: int) -> Piece:
-        """Give the piece at or behind a position; '!' starts a comment."""
-        match = PIECE.match(self.text, position)
+    def scan(self, position: int) -> Token:
+        """Give the token at or after a position; '!' starts a comment."""
+        match = TOKEN.match(self.text, position)
         if match is None:
-            return Piece(END, len(self.text), len(self.text) + 1, "")
+            return Token(END, len(self.text), len(self.text) + 1, "")
         kind = match.lastgroup or END
         first, end = match.span(kind)
         text = match[kind]
@@ -78,7 +78,7 @@ class Source:
             text = text[1:]
         elif kind == "other":
             kind = ATOM
-        return Piece(kind, first, end, text)
+        return Token(kind, first, end, text)
 
     @property
     def length(self) -> int:
@@ -112,13 +112,13 @@ class Source:
         return float(text.lower().replace("d", "e"))
 
     def refuse(self, first: int, end: int, what: str, expected: str) -> NoReturn:
-        """Refuse what stands at text[first:end]: InputError with a message of four lines.
+        """Refuse text[first:end]: InputError with a message of four lines.
 
-        ``name:line:column: error: what``; the line; carets under the fault; what was expected.
+        ``name:line:column: error: what``; the line; carets under the error; what was expected.
         """
         start = self.text.rfind("\n", 0, first) + 1
         finish = self.text.find("\n", start)
-        # of a long line only the part around the fault is shown
+        # a long line is cut around the error
         begin = first - SHOWN // 2 if first - start > SHOWN - 20 else start
         place, margin = self.name, "  "
         if self.has_lines:
@@ -132,19 +132,20 @@ class Source:
             f"{place}: error: {what}\n{margin}| {shown}\n{' ' * len(margin)}| {blanks}{carets}\n"
             f"expected: {expected}"
         )
-        # what is no UTF-8 cannot be printed
+        # bytes that are not UTF-8 cannot be printed
         raise InputError(message.encode(errors="surrogateescape").decode(errors="replace"))
 
 
 MAX_BYTES = 1_000_000
-"""Bytes of the largest file; anything longer is not one."""
+"""Maximum size of a case or table in bytes."""
 BYTE_ORDER_MARK = "\ufeff"
 
 
 def read_text(path: str, expected: str) -> str:
-    """Give the text of a file, without the mark that editors put before UTF-8.
+    """Read the text of a file, without a byte order mark.
 
-    InputError with what was expected if it cannot be read. What is no UTF-8 becomes surrogates.
+    InputError with what was expected if it cannot be read. Bytes that are not UTF-8 become
+    surrogates.
     """
     try:
         text = _text(path)

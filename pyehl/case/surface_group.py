@@ -185,11 +185,11 @@ class Surface:
         "deterministic", "deterministic|gaussian", "modulus of the Fourier components"
     )
     amplitude_given: bool = False
-    """Whether `amplitude` holds and not `amplitude_over_film`."""
+    """Whether `amplitude` applies, not `amplitude_over_film`."""
 
     @classmethod
     def of(cls, group: Mapping[str, Any]) -> Self:
-        """Give a group of a resolved case as attributes; keys that are not there have defaults."""
+        """Give a group of a resolved case as attributes; missing keys have their defaults."""
         return typed(cls, group)
 
     @property
@@ -199,7 +199,7 @@ class Surface:
 
     @property
     def has_height(self) -> bool:
-        """Whether its keys do not leave it smooth."""
+        """Whether its keys make it rough."""
         if self.kind in ("smooth", "map"):
             return self.kind == "map"
         if self.kind == "fractal":

@@ -15,7 +15,7 @@ MAX_SEED = 2147483647
 FRACTAL_LENGTH = 8.29e-4
 # Rq over Ra of normal heights
 RQ_OVER_RA = math.sqrt(0.5 * math.pi)
-# Where roughness comes near the contact and where it has filled it [a], as in fortran/surface
+# Front of roughness that reaches the contact, and that has filled it [a], as in fortran/surface
 X_MATTERS, X_FILLED = -1.25, 1.05
 # Time in which the film made in the inlet passes the contact [a/u]
 THROUGH = 2.0
@@ -31,9 +31,9 @@ class Finish(NamedTuple):
     lay_ratio: float
 
 
-# Ra within the ranges of ASME B46.1; spectra of ground surfaces fall with the second power of the
-# wavenumber (Whitehouse & Archard 1970), of finer ones faster (Persson et al. 2005). Lengths and
-# lay are assumptions.
+# Ra within the ranges of ASME B46.1; spectra of ground surfaces decrease with the second power of
+# the wavenumber (Whitehouse & Archard 1970), of finer ones faster (Persson et al. 2005). Lengths
+# and lay are assumptions.
 FINISHES = {
     "ground": Finish(0.4e-6, 0.5, 100.0e-6, 0.1),
     "honed": Finish(0.2e-6, 0.7, 60.0e-6, 5.0),
@@ -51,8 +51,8 @@ def complete(draft: Draft) -> None:
     if first.kind == second.kind == "fractal" and not draft.is_given("second_surface", "seed"):
         second.seed = first.seed + (1 if first.seed < MAX_SEED else -1)
     for group, one, other in ((GROUPS[0], first, second), (GROUPS[1], second, first)):
-        # a feature comes when the roughness of the other surface has filled the contact, with the
-        # film that it made in the inlet
+        # a feature arrives after the roughness of the other surface, with the film from its inlet,
+        # has filled the contact
         if not draft.is_given(group, "x_start") and _waits(one, other):
             late = _latest_start(one, other) - one.velocity_ratio * THROUGH
             one.x_start = min(one.x_start, late)
@@ -102,18 +102,18 @@ def _complete_pattern(draft: Draft, group: str, surface: Surface) -> None:
 
 
 def _waits(one: Surface, other: Surface) -> bool:
-    """Whether one is a feature on the move and the other one roughness on the move."""
+    """Whether one is a moving feature and the other moving roughness."""
     moves = one.velocity_ratio > 0.0 and other.velocity_ratio > 0.0
     return moves and one.is_feature and not other.is_feature and other.has_height
 
 
 def _latest_start(one: Surface, other: Surface) -> float:
-    """Where a feature begins that comes near the contact when the front of the other leaves it."""
+    """Start of a feature that reaches the contact when the other surface has filled it."""
     return X_MATTERS - one.velocity_ratio * (X_FILLED - other.x_start) / other.velocity_ratio
 
 
 def check(draft: Draft) -> None:
-    """Refuse surfaces without what their kinds need."""
+    """Refuse surfaces that lack what their kinds need."""
     first, second = draft.settings.surface, draft.settings.second_surface
     for group, surface in zip(GROUPS, (first, second), strict=True):
         amplitudes = f"{group}.amplitude", f"{group}.amplitude_over_film"
@@ -133,7 +133,7 @@ def check(draft: Draft) -> None:
 
 
 def _check_height(draft: Draft, group: str, surface: Surface) -> None:
-    """Refuse two heights, and that of a fractal surface beside another kind."""
+    """Refuse two heights, and the height of a fractal surface for another kind."""
     rms = draft.is_given(group, "rms_height")
     has = {"rms_height": rms, "ra": surface.ra > 0.0, "rq": surface.rq > 0.0}
     names = [f"{group}.{key}" for key, there in has.items() if there]
@@ -148,28 +148,28 @@ def _check_height(draft: Draft, group: str, surface: Surface) -> None:
 
 
 def _check_feature(draft: Draft, group: str, surface: Surface) -> None:
-    """Refuse a size given twice, or in metres where the contact has none, and a late beginning."""
+    """Refuse a size given twice or in metres without SI units, and a start in the contact."""
     if surface.spacing_y > 0.0 and not (surface.is_feature and draft.settings.contact.is_line):
         key = f"{group}.spacing_y"
         what = f"{key} = {short(surface.spacing_y)}: nothing repeats along Y after it"
         draft.refuse(key, what, "0, or a single feature on a line contact")
     if not surface.is_feature:
         return
-    rivals = (
+    alternatives = (
         ("height_m", "amplitude"),
         ("height_m", "amplitude_over_film"),
         ("width_m", "width"),
         ("length_m", "length"),
     )
-    for metric, other in rivals:
+    for metric, other in alternatives:
         if getattr(surface, metric) <= 0.0:
             continue
-        one, rival = f"{group}.{metric}", f"{group}.{other}"
+        one, scaled = f"{group}.{metric}", f"{group}.{other}"
         if not draft.settings.contact.si:
             what = f"{one} is in metres, and the contact is given by its Moes numbers"
-            draft.refuse(one, what, f"{rival}, or a contact in SI units")
-        if rival in draft.given:
-            draft.contradict(one, rival, "one of the two")
+            draft.refuse(one, what, f"{scaled}, or a contact in SI units")
+        if scaled in draft.given:
+            draft.contradict(one, scaled, "one of the two")
     if surface.velocity_ratio > 0.0 and surface.x_start > X_MATTERS:
         what = (
             f"{group}.x_start = {short(surface.x_start)}: a {surface.kind} would begin inside the "
@@ -180,7 +180,7 @@ def _check_feature(draft: Draft, group: str, surface: Surface) -> None:
 
 
 def _check_filter(draft: Draft, group: str, surface: Surface) -> None:
-    """Refuse to cut the spectrum of a wave or feature, or all of a spectrum."""
+    """Refuse a cut-off for a wave or a feature, or one that removes the whole spectrum."""
     shortest, longest = surface.shortest_wavelength, surface.longest_wavelength
     for key, limit in (("shortest_wavelength", shortest), ("longest_wavelength", longest)):
         if surface.is_feature:
@@ -200,7 +200,7 @@ def _check_filter(draft: Draft, group: str, surface: Surface) -> None:
 
 
 def _check_map(draft: Draft, group: str, surface: Surface) -> None:
-    """Refuse keys of a map that do not go together; make the name of its file absolute."""
+    """Refuse inconsistent keys of a map; make the name of its file absolute."""
     if surface.kind == "map" and not surface.file:
         what = f"{group}.kind = 'map' without {group}.file"
         draft.refuse(f"{group}.kind", what, f"file = '...', {HEIGHT_MAP}")
@@ -219,7 +219,7 @@ def _check_map(draft: Draft, group: str, surface: Surface) -> None:
     if surface.kind != "map":
         return
     if not os.path.exists(path):
-        # the heights of a tile that was made come from memory, or are kept beside the results
+        # the heights of a prepared tile are in memory, or in a file beside the results
         if surface.tile_x <= 0.0:
             draft.refuse(name, f"{name}: there is no file {path}", HEIGHT_MAP)
     elif not os.path.isfile(path):

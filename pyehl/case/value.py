@@ -1,24 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From a piece of text to the value of one key, or a message that states why not."""
+"""Convert a token to the value of a key, or refuse it with the reason."""
 
 from typing import NoReturn
 
 from pyehl.case import names
 from pyehl.case.key import NUMBER, TRUTHS, Key, Value
 from pyehl.case.settings import LONGEST_PATH, Draft, Place
-from pyehl.case.source import ATOM, OPEN_STRING, STRING, Piece, Source
+from pyehl.case.source import ATOM, OPEN_STRING, STRING, Source, Token
 
 
 class BadValue(Exception):  # noqa: N818
     """Problem of a value, and its offset in the text."""
 
-    def __init__(self, problem: str, behind: int = 0) -> None:
+    def __init__(self, problem: str, offset: int = 0) -> None:
         super().__init__(problem)
-        self.behind = behind
+        self.offset = offset
 
 
-def set_value(draft: Draft, key: Key, number: int, name: tuple[int, int], value: Piece) -> None:
-    """Give a key its value and remember where it came from."""
+def set_value(draft: Draft, key: Key, number: int, name: tuple[int, int], value: Token) -> None:
+    """Set the value of a key, and record its place."""
     source = draft.sources[number]
     if value.kind == OPEN_STRING:
         what = f"the quote in the value of {key.name} is not closed"
@@ -31,7 +31,7 @@ def set_value(draft: Draft, key: Key, number: int, name: tuple[int, int], value:
     setattr(getattr(draft.settings, key.group), key.key, result)
 
 
-def _refuse_value(source: Source, key: Key, value: Piece, bad: BadValue) -> NoReturn:
+def _refuse_value(source: Source, key: Key, value: Token, bad: BadValue) -> NoReturn:
     problem, expected = str(bad), key.expected
     if problem == "out of range":
         expected += key.in_millimetres(value.text)
@@ -43,11 +43,11 @@ def _refuse_value(source: Source, key: Key, value: Piece, bad: BadValue) -> NoRe
     if len(shown) > 60:
         shown = f"{shown[:57]}..."
     what = f"{key.name} = {shown}: {problem}"
-    source.refuse(value.first + bad.behind, value.end, what, expected)
+    source.refuse(value.first + bad.offset, value.end, what, expected)
 
 
-def value_of(key: Key, value: Piece, *, is_option: bool) -> Value:
-    """Give the value of a piece of text; BadValue with what is wrong with it."""
+def value_of(key: Key, value: Token, *, is_option: bool) -> Value:
+    """Convert a token to a value; BadValue with the problem."""
     if key.kind in ("real", "whole"):
         return _number(key, value, is_option=is_option)
     if key.kind == "truth":
@@ -72,18 +72,18 @@ def value_of(key: Key, value: Piece, *, is_option: bool) -> Value:
     return value.text
 
 
-def _numbers(key: Key, piece: Piece) -> tuple[float, ...]:
+def _numbers(key: Key, token: Token) -> tuple[float, ...]:
     if not key.for_input:
         raise BadValue("not for input")
-    cells = [cell.strip() for cell in piece.text.split(",")]
+    cells = [cell.strip() for cell in token.text.split(",")]
     if not all(NUMBER.fullmatch(cell) for cell in cells):
         raise BadValue("not numbers with commas between them")
     return tuple(float(cell.lower().replace("d", "e")) for cell in cells)
 
 
-def _number(key: Key, piece: Piece, *, is_option: bool) -> float | int:
-    text = piece.text
-    if piece.kind == STRING:
+def _number(key: Key, token: Token, *, is_option: bool) -> float | int:
+    text = token.text
+    if token.kind == STRING:
         raise BadValue("text where a number is expected")
     match = NUMBER.match(text)
     if match is None or match.end() < len(text):

@@ -23,15 +23,15 @@ LAWS = {
     "doolittle": "doolittle",
     "tait": "doolittle",
 }
-"""Laws of viscosity by the beginning of the keys of their constants."""
+"""Laws of viscosity by the prefix of the keys of their constants."""
 
 
 def case_text(settings: Settings, given: Collection[str]) -> str:
     """Give a case as text.
 
-    Of keys that exclude each other only the one that holds is written. Values that are not among
-    those `given` are marked as defaults, or as derived from others. A second surface that is
-    not set is left out.
+    Of mutually exclusive keys only the effective one is written. Values that are not among those
+    `given` are marked as defaults, or as derived from others. A second surface that is not set is
+    omitted.
     """
     blocks = []
     for group, keys in GROUPS.items():
@@ -73,7 +73,7 @@ def group_text(settings: Settings, group: str, other: Mapping[str, Value] | None
 
 @cache
 def _ends(key: Key) -> tuple[str, str]:
-    """Give what stands before a value and behind it."""
+    """Give the text before and after a value."""
     unit = "" if key.unit == "-" else f"[{key.unit}] "
     return f"   {key.key} = ", f"! {unit}{key.meaning}"
 

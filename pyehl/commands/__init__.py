@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The subcommands of ``pyehl``: each module declares its arguments, prints and draws.
 
-Nothing but `pyehl.cli` imports them. Each has ``add_arguments(parser)`` and ``execute(args)``,
+Only `pyehl.cli` imports them. Each has ``add_arguments(parser)`` and ``execute(args)``,
 which returns the exit status.
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl app``: an interactive contact, in the browser."""
+"""``pyehl app``: an interactive contact in the browser."""
 
 import argparse
 from functools import partial
@@ -12,7 +12,7 @@ from pyehl.errors import InputError
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_case_arguments(parser, optional=True)
     parser.add_argument(
-        "--port", type=int, default=0, metavar="N", help="of 127.0.0.1 (default: one that is free)"
+        "--port", type=int, default=0, metavar="N", help="port of 127.0.0.1 (default: a free one)"
     )
     parser.add_argument(
         "--no-browser", dest="browser", action="store_false", help="print the address alone"
@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl app`` until it is interrupted; 0 then, 2 for bad input."""
+    """Run ``pyehl app`` until it is interrupted; then 0, for bad input 2."""
     if not 0 <= args.port <= 65535:
         raise InputError(f"--port {args.port}: expected 0 ... 65535")
     case = Case(args.case, args.overrides) if args.case else Case.from_text("", args.overrides)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl check``: a case resolved, and how it would be solved."""
+"""``pyehl check``: the resolved case and the plan of its solution."""
 
 import argparse
 
@@ -9,7 +9,7 @@ from pyehl.surfaces.solver_surface import write_resolved
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.description = "Read and check a case; print it resolved, and the plan. Solve nothing."
+    parser.description = "Check a case; print the resolved case and the plan, without solving it."
     add_case_arguments(parser)
     parser.add_argument(
         "--resolved",

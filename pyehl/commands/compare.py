@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl compare``: results against a table of references."""
+"""``pyehl compare``: compare results with a table of references."""
 
 import argparse
 
@@ -12,8 +12,8 @@ from pyehl.studies.rig_comparison import compared, lines
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.description = (
         "Compare a result or a study with a table of reference values: deviations, pass or fail. "
-        "Exit status: 0 all within their tolerances, 1 at least one outside, 2 bad input. Or a "
-        "study with what a rig measured: deviations per decade."
+        "Exit status: 0 all within their tolerances, 1 at least one outside, 2 bad input. Or "
+        "compare a study with measurements of a rig: deviations per decade."
     )
     parser.add_argument("results", metavar="DIR", help="result folder, folder of a study, or CSV")
     parser.add_argument(

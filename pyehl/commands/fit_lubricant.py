@@ -43,7 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def report(fit: Fit) -> str:
-    """Return what is printed."""
+    """Return the printed lines."""
     film = fit.quantity == "h_c_m"
     law = f"law        {fit.law}" if fit.law else "coefficient of the viscosity law"
     lines = [f"{law}, {fit.places.size} measured points"]

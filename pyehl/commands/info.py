@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl info``: versions and machine, for a report of a fault."""
+"""``pyehl info``: versions and machine, for bug reports."""
 
 import argparse
 import os

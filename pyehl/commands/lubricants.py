@@ -13,7 +13,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "Oils that lubricant.name knows: constants, their ranges and sources, viscosity and "
         "pressure-viscosity coefficients at a temperature."
     )
-    parser.add_argument("names", metavar="NAME", nargs="*", help="some of them; default all")
+    parser.add_argument("names", metavar="NAME", nargs="*", help="names of oils (default: all)")
     parser.add_argument(
         "--temperature", type=float, default=40.0, metavar="DEGC", help="default 40 degC"
     )
@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def report(oil: Oil, temperature: float) -> str:
-    """Return what is printed of an oil."""
+    """Return the printed lines of an oil."""
     at = oil.at(temperature)
     coefficients = (
         f"alpha = {1e9 * at.pressure_viscosity:.2f}/GPa at ambient pressure, alpha* = "
@@ -32,7 +32,7 @@ def report(oil: Oil, temperature: float) -> str:
         f"  source     {oil.source}",
         f"  range      {oil.range}",
         f"  {temperature:g} degC    {1e3 * at.viscosity:.4g} mPa s, falling by "
-        f"{100.0 * at.temperature_viscosity:.2f} % a kelvin; law '{oil.viscosity_law}'",
+        f"{100.0 * at.temperature_viscosity:.2f} % per kelvin; law '{oil.viscosity_law}'",
         f"             {coefficients}",
     ]
     lines += [f"  {c.key:24} {c.value:<14.7g} {c.place}" for c in oil.constants]

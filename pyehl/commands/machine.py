@@ -16,10 +16,10 @@ from pyehl.studies.plan import duration, wall_seconds
 
 
 def add_machine_arguments(parser: argparse.ArgumentParser, what: str) -> None:
-    """Arguments of both; `what` the table has a row for."""
+    """Add the arguments of both; the table has a row for each `what`."""
     parser.description = (
         f"{what}: load, pressure, film, friction. By formulas at once, or solved or predicted in "
-        "worker processes; started again it runs what is missing. Exit status: 0 every contact has "
+        "worker processes; a repeated call runs what is missing. Exit status: 0 every contact has "
         "a result, 1 at least one has none, 2 bad input (nothing has run), 130 interrupted."
     )
     add_case_arguments(parser)

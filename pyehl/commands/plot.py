@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--units",
         choices=UNITS,
         default="auto",
-        help="of the EHL fields (default: SI when the case was given in SI)",
+        help="units of the EHL fields (default: SI when the case was given in SI)",
     )
     parser.add_argument("--format", choices=FORMATS, default="png", help="default: png")
     parser.add_argument("--dpi", type=int, default=DPI, help=f"dots per inch (default: {DPI})")
@@ -35,8 +35,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--width",
         metavar="WIDTH",
         default="",
-        help="of the figures, as 84mm or 3.3in for a column of a journal; letters of 8 points "
-        "(default: 85 mm, with panels side by side 175 mm)",
+        help="width of the figures, as 84mm or 3.3in for a column of a journal; letters of 8 "
+        "points (default: 85 mm, with panels side by side 175 mm)",
     )
     parser.add_argument(
         "--movie",
@@ -65,7 +65,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _metres(text: str) -> float:
-    """Give a width in metres; 0 for none. InputError if it is no length with a unit."""
+    """Convert a width to metres; 0 for none. InputError if it is not a length with a unit."""
     match = re.fullmatch(r"\s*(\d+(?:\.\d*)?|\.\d+)\s*(mm|cm|in)\s*", text)
     if match is None:
         if text:

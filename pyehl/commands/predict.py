@@ -120,7 +120,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--smooth",
         metavar="DIR",
-        help="result folder with the smooth contact (default: solved on the spot)",
+        help="result folder with the smooth contact (default: solved first)",
     )
     parser.add_argument(
         "--plots",

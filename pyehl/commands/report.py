@@ -16,8 +16,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         const=True,
         metavar="OUT",
-        help="stress below the surface: computed, or of a folder of pyehl stress (default: that in "
-        "DIR/stress, if there is one)",
+        help="stress below the surface: computed, or from a folder of pyehl stress (default: that "
+        "in DIR/stress, if there is one)",
     )
     parser.add_argument(
         "--pdf",

@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         required=True,
         metavar="DIR",
-        help="result folder; runs that are there already are not made again",
+        help="result folder; existing runs are not repeated",
     )
     add_force(parser)
     parser.add_argument(
@@ -38,7 +38,7 @@ def execute(args: argparse.Namespace) -> int:
     case = Case(args.case, args.overrides)
     case = exchanged(case) if args.second else case
     ratio = float(case.resolve()["surface"]["velocity_ratio"])
-    # a step costs what its nodes do
+    # the cost of a step is proportional to its nodes
     cost = {tier.name: float(tier.points**2) for tier in (TIERS[:-1] if args.quick else TIERS)}
     done: dict[str, float] = {}
     began = time.perf_counter()

@@ -23,14 +23,14 @@ PROGRESS_INTERVAL = 2.0
 
 
 class _Printer:
-    """Prints lines; when the terminal or file is lost during a run it continues silently."""
+    """Prints lines; if the output fails during a run, the run continues silently."""
 
     def __init__(self) -> None:
         self.lines = 0
-        self.lost = False
+        self.failed = False
 
     def __call__(self, text: str) -> None:
-        if self.lost:
+        if self.failed:
             return
         try:
             print(text, flush=True)
@@ -41,13 +41,13 @@ class _Printer:
                 # nothing has been computed
                 raise
             mute()
-            self.lost = True
+            self.failed = True
             LOG.warning("standard output: cannot be written: %s", error.strerror)
         self.lines += 1
 
 
 def _display(say: Callable[[str], None]) -> Callable[[Solver], None]:
-    """Give what shows the state: a bar on a terminal, else lines at intervals, and the end."""
+    """Make a function that shows the state: a bar on a terminal, else lines at intervals."""
     bar = ProgressBar() if sys.stderr.isatty() else None
     interval = PROGRESS_INTERVAL if bar is None else 0.1
     last = time.monotonic()
@@ -66,7 +66,7 @@ def _display(say: Callable[[str], None]) -> Callable[[Solver], None]:
 
 def _status(outcome: Outcome, say: _Printer) -> int:
     if outcome.converged:
-        return EXIT_FAILED if say.lost else EXIT_OK
+        return EXIT_FAILED if say.failed else EXIT_OK
     return EXIT_INTERRUPTED if outcome.interrupted else EXIT_FAILED
 
 

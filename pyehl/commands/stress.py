@@ -31,13 +31,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="traction: of the result, none, or MU times the pressure (default: run)",
     )
     parser.add_argument(
-        "--above", type=float, metavar="PA", help="shear for the share of the near-surface volume"
+        "--above",
+        type=float,
+        metavar="PA",
+        help="report the share of the near-surface volume above this shear",
     )
     parser.add_argument(
         "--near",
         type=float,
         metavar="M",
-        help="depth of that volume (default: a quarter of that of the largest smooth shear)",
+        help="depth of that volume (default: a quarter of that of the maximum smooth shear)",
     )
     parser.add_argument("--fatigue", choices=CRITERIA, help="criterion of fatigue")
     parser.add_argument(
@@ -47,7 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--contamination", type=float, metavar="EC_CU_P", help="e_C C_u/P for a_ISO of ISO 281"
     )
-    parser.add_argument("--bearing", choices=BEARINGS, default="ball", help="of a_ISO")
+    parser.add_argument("--bearing", choices=BEARINGS, default="ball", help="type for a_ISO")
 
 
 def execute(args: argparse.Namespace) -> int:

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from pyehl.commands.arguments import add_case_arguments
-from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, report_lost
+from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, report_missing
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.rigs.quantities import FRICTION
 from pyehl.rigs.reading import is_rig, read_rig
@@ -61,7 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--measured",
         metavar="FILE",
-        help="measured friction, drawn over the curve: columns as of the curve, or the file of a "
+        help="measured friction, drawn over the curve: columns as in the curve, or the file of a "
         "rig, whose films and friction are compared",
     )
     parser.add_argument(
@@ -79,7 +79,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="constants of that law: exp(-B (h_c/sigma)^C) of the load is on asperities "
         f"(default {AIHARA[0]:g} {AIHARA[1]:g})",
     )
-    parser.add_argument("--dpi", type=int, default=150, help="of the picture (default 150)")
+    parser.add_argument(
+        "--dpi", type=int, default=150, help="dots per inch of the picture (default 150)"
+    )
     add_worker_arguments(parser)
 
 
@@ -100,15 +102,15 @@ def _plan(args: argparse.Namespace) -> CurvePlan:
 
 
 def _measured(path: str, plan: CurvePlan) -> Measured | None:
-    """Read measured friction; InputError if it does not fit the curve, None if a rig has none."""
+    """Read measured friction, None if a rig has none; InputError if it does not match the curve."""
     keys = plan.study.keys
     if len(keys) > 1:
         raise InputError("--measured: expected one curve, over one of the options")
     if is_rig(path):
         settings = plan.points[0].settings
         rig = rig_curves(path, settings, keys)
-        return _fitting(path, rig[FRICTION], plan) if FRICTION in rig else None
-    measured = _fitting(path, read_measured(path, keys[0]), plan)
+        return _matching(path, rig[FRICTION], plan) if FRICTION in rig else None
+    measured = _matching(path, read_measured(path, keys[0]), plan)
     places = np.array([float(p.point.values[keys[0]]) for p in plan.points])
     if measured.abscissa == keys[0] and (beyond := measured.outside(places)):
         raise InputError(
@@ -119,8 +121,8 @@ def _measured(path: str, plan: CurvePlan) -> Measured | None:
     return measured
 
 
-def _fitting(path: str, measured: Measured, plan: CurvePlan) -> Measured:
-    """Give measured friction; InputError if the curve has another kind of it."""
+def _matching(path: str, measured: Measured, plan: CurvePlan) -> Measured:
+    """Return measured friction; InputError if the curve has the other of mu and mu_ratio."""
     moving = [p.settings for p in plan.points if p.settings["contact"]["slide_to_roll"] != 0.0]
     why = next((note for settings in moving if (note := no_coefficient(settings))), "")
     wanted = "mu_ratio" if why else "mu"
@@ -136,7 +138,7 @@ def draw(
     plan: CurvePlan, table: pd.DataFrame, measured: Measured | None, path: Path, dpi: int
 ) -> None:
     """Draw the curves of a table."""
-    from pyehl.plots.stribeck import (  # noqa: PLC0415 (matplotlib takes long to import)
+    from pyehl.plots.stribeck import (  # noqa: PLC0415 (importing matplotlib is slow)
         Points,
         draw_stribeck,
         draw_traction,
@@ -167,7 +169,7 @@ def draw(
 
 
 def _conditions(plan: CurvePlan) -> str:
-    """Give those of load, speed, slip and viscosity that are not varied."""
+    """Format those of load, speed, slip and viscosity that are not varied."""
     settings = plan.points[0].settings
     result = [
         f"{sign} = {settings[group][key]:.4g}{unit}"
@@ -190,12 +192,12 @@ def execute(args: argparse.Namespace) -> int:
     try:
         return _curve(args, plan, jobs, measured)
     except KeyboardInterrupt as stop:
-        kept = f"what is finished is kept; the same command resumes it in {folder}"
-        raise KeyboardInterrupt(kept) from stop
+        note = f"what is finished is kept; the same command resumes it in {folder}"
+        raise KeyboardInterrupt(note) from stop
 
 
 def _curve(args: argparse.Namespace, plan: CurvePlan, jobs: int, measured: Measured | None) -> int:
-    """Run a curve that is planned, draw and report it."""
+    """Run a planned curve, draw and report it."""
     folder = Path(args.output)
     inputs = tuple(word for word in (args.case, args.measured) if word is not None)
     with closing(Terminal(lambda done: plan.text(jobs, done), quiet=args.quiet)) as watcher:
@@ -228,15 +230,15 @@ def _curve(args: argparse.Namespace, plan: CurvePlan, jobs: int, measured: Measu
         print(last_lines(plan, table))
         print(f"results    {', '.join(str(folder / name) for name in written)}")
     full = np.array([p.full is not None for p in plan.points])
-    missing = (
+    unsolved = (
         (table["status"] == UNSOLVED)
         | table["h_c_m"].isna()
         | (full & table["mu_ratio_ehl"].isna())
     )
-    lost = [
+    missing = [
         f"point {k + 1} of {len(table)} ({plan.points[k].point}): "
         f"{table['status'][k]}: {table['message'][k]}"
-        for k in np.flatnonzero(missing)
+        for k in np.flatnonzero(unsolved)
     ]
-    report_lost(lost, folder / CSV)
-    return EXIT_OK if drawn and not lost else EXIT_FAILED
+    report_missing(missing, folder / CSV)
+    return EXIT_OK if drawn and not missing else EXIT_FAILED

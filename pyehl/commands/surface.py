@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl surface``: a rough surface in numbers, as a picture and as a file.
 
-A file of an instrument or an array, or the surface of a case.
+The surface is an instrument file, an array, or that of a case.
 """
 
 import argparse
@@ -29,7 +29,7 @@ from pyehl.theory.operating import OperatingPoint
 
 MADE = f"! {mark('surface')}\n! A tile in the contact that it was made for\n"
 
-# Keys of a tile that is on its track and whose spectrum is cut
+# Keys of a tile on its track, with its spectrum already cut
 READY_IN_PLACE = {
     **READY,
     "surface.track": 0.0,
@@ -73,7 +73,7 @@ def execute(args: argparse.Namespace) -> int:
     kind = settings["surface"]["kind"]
     if kind == "map":
         how = str(settings["surface"]["profile"])
-        # a profile, and no key states what surface is to be made of it
+        # a profile without a key that states which surface to make of it
         bare = how == "none" and not is_case and is_profile(settings["surface"]["file"])
         if bare or how != "none":
             print_spectrum(settings["surface"])
@@ -133,7 +133,7 @@ def _lines(surface: Topography) -> list[str]:
 
 
 def numbers(surface: Topography) -> list[str]:
-    """Lines with the numbers of ISO 25178-2; of a map, those before its edges were joined."""
+    """Lines with the parameters of ISO 25178-2; of a map, those before its edges were joined."""
     made = surface.preparation
     values = areal_numbers(
         made.prepared if made else surface.heights, made.pixel if made else surface.pixel
@@ -151,14 +151,14 @@ def _beside(path: Path) -> tuple[Path, Path]:
 
 
 def _seal(path: Path) -> str:
-    """Checksum of a tile, as its case has it."""
+    """Checksum of a tile, as a line of its case."""
     with path.open("rb") as stream:
         digest = hashlib.file_digest(stream, "sha256").hexdigest()
     return f"! {path.name}: sha256 {digest}\n"
 
 
 def _check(path: Path, inputs: Sequence[str], plots: bool) -> None:
-    """Refuse files that are there and are not of an earlier tile of this name."""
+    """Refuse to replace files other than those of an earlier tile of this name."""
     beside, picture = _beside(path)
     check_files([beside, picture] if plots else [beside], "surface", inputs)
 
@@ -181,7 +181,7 @@ def _write(
     size = {"surface.length_x": surface.length_x, "surface.length_y": surface.length_y}
     name = str(path.absolute()).replace("'", "''")
     text = case.with_options(READY_IN_PLACE, size, f"surface.file='{name}'").text
-    # beside it: the folder may be moved
+    # a relative name: the folder may be moved
     text = text.replace(f"'{name}'", "'" + path.name.replace("'", "''") + "'")
     with new_file(beside) as fresh:
         fresh.write_text(MADE + _seal(path) + text, encoding="utf-8")

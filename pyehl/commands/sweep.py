@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from pyehl.commands.arguments import add_overrides
-from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, report_lost
+from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, report_missing
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.studies.plan import MAX_CHECKED, duration, plan
 from pyehl.studies.study import RUNS, make, parse_axis, read_study
@@ -17,7 +17,7 @@ from pyehl.studies.tasks import FAILED, FINDINGS, why_none
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.description = (
-        "Run a case with many values, in worker processes; started again it runs what is missing. "
+        "Run a case with many values, in worker processes; a repeated call runs what is missing. "
         "Exit status: 0 all cases have a result, of which film breakdown is one, 1 at least one "
         "has none, 2 bad input (nothing has run), 130 interrupted."
     )
@@ -41,12 +41,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--zip", action="store_true", help="all varied keys move together")
     parser.add_argument("--keep", action="store_true", help="a result folder for each case")
-    parser.add_argument("--retry", action="store_true", help="run cases again that failed")
+    parser.add_argument("--retry", action="store_true", help="run failed cases again")
     parser.add_argument(
         "--plan",
         action="store_true",
-        help=f"check all cases (of more than {MAX_CHECKED} some of them), print the plan, "
-        "run nothing",
+        help=f"check all cases (at most about {MAX_CHECKED}), print the plan, run nothing",
     )
     add_worker_arguments(parser)
 
@@ -72,10 +71,10 @@ def report(outcome: Outcome, folder: Path, workers: int) -> str:
     counts = ", ".join(f"{n} {status}" for status, n in sorted(outcome.statuses().items()))
     lines = [f"cases      {len(outcome.rows)} in the table: {counts or 'none'}"]
     if outcome.ran and outcome.wall > 0.0:
-        share = outcome.busy / (outcome.wall * workers)
+        busy = outcome.busy / (outcome.wall * workers)
         lines.append(
             f"           {outcome.ran} ran now in {duration(outcome.wall)}, "
-            f"the workers {100.0 * min(share, 1.0):.0f} % busy"
+            f"the workers {100.0 * min(busy, 1.0):.0f} % busy"
         )
     failed = outcome.statuses().get(FAILED, 0)
     if failed:
@@ -90,7 +89,7 @@ def execute(args: argparse.Namespace) -> int:
     try:
         study = make(**_arguments(args))
     except InputError as error:
-        # what a study file states is reported with its place
+        # an error of a study file names the file
         if args.case.endswith(".toml") and args.case not in str(error):
             raise InputError(f"{args.case}: error: {error}") from error
         raise
@@ -114,11 +113,11 @@ def execute(args: argparse.Namespace) -> int:
         watcher.interrupted(folder)
         return EXIT_INTERRUPTED
     size = todo.study.size
-    lost = [
+    missing = [
         f"case {point.number + 1} of {size} ({point}): {why}"
         for point in todo.points
         if outcome.rows[point.number]["status"] not in FINDINGS
         and (why := why_none(outcome.rows[point.number]))
     ]
-    report_lost(lost, folder / CSV)
-    return EXIT_FAILED if lost else EXIT_OK
+    report_missing(missing, folder / CSV)
+    return EXIT_FAILED if missing else EXIT_OK

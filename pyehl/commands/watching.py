@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Common part of subcommands that run many cases: arguments, and progress."""
+"""Common part of subcommands that run many cases: arguments and progress."""
 
 import argparse
 import sys
@@ -23,7 +23,7 @@ LINE_INTERVAL = 5.0
 
 
 class Bar:
-    """A bar that counts estimated seconds; lines at intervals where there is no terminal."""
+    """A bar that counts estimated seconds; lines at intervals without a terminal."""
 
     def __init__(self, total: float) -> None:
         self._start = self._last = time.monotonic()
@@ -32,7 +32,7 @@ class Bar:
         self._total = total
 
     def show(self, done: float, text: str, left: float | None = None) -> None:
-        """Show how much is done, a text about it, and the seconds left (by default from both)."""
+        """Show the seconds done, a text, and the seconds left (default: extrapolated)."""
         now = time.monotonic()
         if left is None and 0.0 < done:
             left = (now - self._start) * (self._total / done - 1.0)
@@ -84,12 +84,12 @@ class Terminal(Watcher):
             self._bar.close()
 
     def interrupted(self, folder: Path) -> None:
-        """Say how an interrupted study is resumed."""
+        """Print how to resume an interrupted study."""
         print(f"interrupted; the same command resumes it in {folder}", file=sys.stderr)
 
 
 def add_worker_arguments(parser: argparse.ArgumentParser, *, required: bool = True) -> None:
-    """Arguments of all subcommands that run many cases; `required`: a folder has to be given."""
+    """Add the arguments of all subcommands that run many cases; `required`: -o is needed."""
     parser.add_argument(
         "-o", "--output", metavar="DIR", required=required, help="folder of the study"
     )
@@ -106,12 +106,12 @@ def add_worker_arguments(parser: argparse.ArgumentParser, *, required: bool = Tr
     parser.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
 
 
-def report_lost(lost: Sequence[str], table: Path) -> None:
-    """Print a message for each case without a result; of very many the first."""
-    for text in lost[:MAX_MESSAGES]:
+def report_missing(messages: Sequence[str], table: Path) -> None:
+    """Print the messages of cases without a result, at most `MAX_MESSAGES`."""
+    for text in messages[:MAX_MESSAGES]:
         print(" ".join(text.split()), file=sys.stderr)
-    if len(lost) > MAX_MESSAGES:
-        print(f"and {len(lost) - MAX_MESSAGES} more: see status in {table}", file=sys.stderr)
+    if len(messages) > MAX_MESSAGES:
+        print(f"and {len(messages) - MAX_MESSAGES} more: see status in {table}", file=sys.stderr)
 
 
 def jobs_of(args: argparse.Namespace) -> int:

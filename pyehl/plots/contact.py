@@ -21,14 +21,14 @@ from pyehl.types import Array
 # Light of the interferogram [m]: red and green, as in two-colour interferometry; mineral oil
 RED, GREEN = 633e-9, 532e-9
 REFRACTIVE_INDEX = 1.5
-# Films [m] whose fringes this light distinguishes; for others the fringes are a share of the film
+# Films [m] that this light resolves; for others the fringe spacing is a fraction of the film
 MIN_FILM, MAX_FILM = 0.9e-7, 1.2e-6
-RED_SHARE = 0.9
-# Fringes after which the contrast has faded, as under filtered light
+RED_FRACTION = 0.9
+# Number of fringes after which the contrast fades, as under filtered light
 COHERENT_FRINGES = 8.0
 # Half sides of the maps over those of the contact
 VIEW = 1.3
-# Largest film of the colours over that at the centre
+# Maximum film of the colour scale over that at the centre
 SHOWN = 1.6
 
 
@@ -51,11 +51,11 @@ def pressure_and_film(
     pressure, film
         P and H, (n,), in Hertz units.
     name
-        Of the coordinate, 'x' or 'y'.
+        Name of the coordinate, 'x' or 'y'.
     half
-        Half of the dry contact on this line; infinite where it has no end: no Hertz pressure.
+        Half of the dry contact on this line; if it is infinite, no Hertz pressure is drawn.
     ax
-        Where to draw; None: a new figure. The film has a second axis on the right.
+        Axes; None: a new figure. The film has a second axis on the right.
     """
     ax = style.axes_or_new(ax, 4.2, 3.3)
     unit, label = style.axis_unit(scales, name)
@@ -77,7 +77,7 @@ def pressure_and_film(
 
 
 def fringe_spacings(central: float, scales: style.Scales | None) -> tuple[float, float]:
-    """Difference in film from fringe to fringe in red and in green.
+    """Film difference between fringes in red and in green.
 
     Parameters
     ----------
@@ -88,29 +88,29 @@ def fringe_spacings(central: float, scales: style.Scales | None) -> tuple[float,
     if scales is not None and MIN_FILM <= central / metre <= MAX_FILM:
         red, green = (metre * light / (2.0 * REFRACTIVE_INDEX) for light in (RED, GREEN))
         return red, green
-    return RED_SHARE * central, RED_SHARE * central * GREEN / RED
+    return RED_FRACTION * central, RED_FRACTION * central * GREEN / RED
 
 
 def fringe_colours(film: Array, red: float, green: float) -> Array:
     """Colours (..., 3) of two-colour interference fringes over a film.
 
-    Dark where the paths differ by whole wavelengths: the reflection at one face turns the phase.
-    Contrast fades with the film as under filtered light, before the screen aliases.
+    Fringes are dark where the paths differ by whole wavelengths: the reflection at one face shifts
+    the phase by pi. The contrast fades with the film as under filtered light, before aliasing.
 
     Parameters
     ----------
     film
         Any shape.
     red, green
-        Difference in film from fringe to fringe, in the unit of the film.
+        Film difference between fringes, in the unit of the film.
     """
     colours = np.zeros((*film.shape, 3))
     for channel, spacing in enumerate((red, green)):
         contrast = np.exp(-((film / (COHERENT_FRINGES * spacing)) ** 2))
         colours[..., channel] = 0.5 * (1.0 - contrast * np.cos(2.0 * np.pi * film / spacing))
-    # a little of the red light lightens the dark green for those who see no red
+    # some blue beside red lightens the dark green for readers who do not see red
     colours[..., 2] = 0.15 * colours[..., 0]
-    # white where there are no fringes any more
+    # white beyond the last fringe
     faded = (1.0 - np.exp(-((film / (COHERENT_FRINGES * red)) ** 2)))[..., np.newaxis] ** 2
     return np.asarray(colours + faded * (1.0 - colours))
 
@@ -148,7 +148,7 @@ def pressure_map(
     outline: Outline = CIRCLE,
     ax: Axes | None = None,
 ) -> Axes:
-    """Pressure P (nx, ny) as a map with a colour bar; other arguments as of `contours`."""
+    """Pressure P (nx, ny) as a map with a colour bar; other arguments as in `contours`."""
     ax = style.axes_or_new(ax, 4.2, 3.6)
     unit_p, label = style.pressure_unit(scales)
     unit, _ = style.axis_unit(scales, "x")
@@ -185,11 +185,11 @@ def interferogram(
         H (nx, ny) in Hertz units.
     scales
         For SI units; the fringes are then those of light of 633 and 532 nm in oil, unless the film
-        is too thin or too thick for them. Else they are a share of the central film.
+        is too thin or too thick. Otherwise the spacing is a fraction of the central film.
     fringes
-        As `fringe_spacings` gives them, for several films in the same light; None: for this film.
+        Result of `fringe_spacings`, common to several films; None: that of this film.
     outline
-        Of the dry contact.
+        Outline of the dry contact.
 
     Raises
     ------
@@ -211,7 +211,7 @@ def interferogram(
     extent = style.extent_of(across[columns], up[rows], unit)
     colours = fringe_colours(fine, red, green).transpose(1, 0, 2)
     ax.imshow(colours, origin="lower", extent=extent, interpolation="antialiased")
-    top = SHOWN * (central or red / RED_SHARE)
+    top = SHOWN * (central or red / RED_FRACTION)
     shades = ListedColormap(fringe_colours(np.linspace(0.0, top, 512), red, green))
     _bar(ScalarMappable(Normalize(0.0, top), shades), ax, label, outline)
     _frame(ax, x, y, scales, outline)
@@ -227,7 +227,7 @@ def contours(
     outline: Outline = CIRCLE,
     ax: Axes | None = None,
 ) -> Axes:
-    """Film as contours with a colour bar; what is thicker is the gap around, left white.
+    """Film as contours with a colour bar; the thicker gap around the contact is white.
 
     Parameters
     ----------
@@ -236,7 +236,7 @@ def contours(
     film
         H (nx, ny) in Hertz units.
     outline
-        Of the dry contact.
+        Outline of the dry contact.
 
     Raises
     ------

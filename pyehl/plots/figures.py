@@ -15,7 +15,7 @@ from matplotlib.ticker import MaxNLocator
 from pyehl import namelist
 from pyehl.plots import contact, surface, transient
 from pyehl.plots.outline import Outline
-from pyehl.plots.panels import MARGIN, headline, no_numbers_below, no_second_label, panels, rows
+from pyehl.plots.panels import MARGIN, drop_second_label, drop_x_labels, headline, panels, rows
 from pyehl.plots.style import (
     BLUE,
     THIN,
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 
 def scales_of(data: xr.Dataset, units: str = "auto") -> Scales | None:
-    """Scales of a solution for `units`: 'si', 'hertz', or 'auto' for SI when the case has them."""
+    """Scales of a solution for `units`: 'si', 'hertz', or 'auto' for SI if the case has them."""
     point = scaling_contact(namelist.values(data.attrs["case"]))
     if units == "si" or (units == "auto" and point.si):
         thin = float(summary_of(data).get("H_c") or 0.0) * point.film_scale < THIN
@@ -47,9 +47,9 @@ def scales_of(data: xr.Dataset, units: str = "auto") -> Scales | None:
 
 
 def _maps(count: int, conditions: str, outline: Outline, lines: float = 0.0) -> Figure:
-    """Make a figure with so many maps of the contact, those of a slender one below one another.
+    """Make a figure with `count` maps of the contact, stacked for a slender one.
 
-    `lines`: height over width of a panel that follows the maps of a slender contact; 0: none.
+    `lines`: height over width of a panel below the maps of a slender contact; 0: none.
     """
     if not outline.slender:
         return panels(count, (1.0, 1.0 if count == 1 else 0.92), conditions, sharey=True)
@@ -71,7 +71,7 @@ def solution_figures(data: xr.Dataset, units: str = "auto") -> dict[str, Figure]
         figures["pressure_and_film"] = _one_row(data, scales, title)
     elif "P" in data:
         figures["centre_lines"] = _centre_lines(data, scales, title)
-        # fringes and contours are those of a film
+        # fringes and contours need a positive film
         if data.H.values[nearest(data.X.values, 0.0), nearest(data.Y.values, 0.0)] > 0.0:
             figures["film"] = _film(data, scales, title)
     if "A_d" in data and not line:
@@ -114,7 +114,7 @@ def _one_row(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
 
 
 def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    """Film as fringes and as contours; of a slender contact pressure and lines along it, too."""
+    """Film as fringes and as contours; for a slender contact also pressure and centre lines."""
     outline = Outline.of(data)
     figure = _maps(3 if outline.slender else 2, title, outline, lines=0.28)
     left, right, *more = figure.axes
@@ -140,9 +140,9 @@ def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
         more[1].xaxis.set_major_locator(MaxNLocator(4))
         if not outline.turned:
             more[1].set_xlabel(left.get_xlabel())
-        no_numbers_below(left, right, more[0])
+        drop_x_labels(left, right, more[0])
     else:
-        no_second_label(right)
+        drop_second_label(right)
     return figure
 
 
@@ -162,11 +162,11 @@ def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
 
 
 def _once(axes: list[Axes], outline: Outline) -> None:
-    """Remove labels that two maps of a contact share."""
+    """Remove repeated labels of two maps."""
     if outline.slender:
-        no_numbers_below(axes[0])
+        drop_x_labels(axes[0])
     else:
-        no_second_label(axes[1])
+        drop_second_label(axes[1])
 
 
 def _rough_and_smooth(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
@@ -214,7 +214,7 @@ def _extremes(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
 
 
 def _duty(data: xr.Dataset, title: str) -> Figure:
-    """Films over time, with those of steady contacts, and below the conditions."""
+    """Films over time, with those of steady contacts, above the conditions."""
     figure = rows([0.47, 0.26], title, MARGIN)
     upper, lower = figure.axes
     history, solved = (
@@ -228,8 +228,8 @@ def _duty(data: xr.Dataset, title: str) -> Figure:
     if not solved:
         formula = transient.quasi_static(history, settings, float(data.h_c_m))
     transient.duty_history(history, formula, solved or None, ax=upper)
-    transient.duty_itself(history, ax=lower)
-    no_numbers_below(upper)
+    transient.duty_conditions(history, ax=lower)
+    drop_x_labels(upper)
     return figure
 
 
@@ -238,7 +238,7 @@ def prediction_figures(
 ) -> dict[str, Figure]:
     """All figures of a prediction, by the names of their files.
 
-    `about` is its summary; of the `tables` ``passage`` and ``bands`` are shown.
+    `about` is its summary; the `tables` ``passage`` and ``bands`` are drawn.
     """
     return {name: draw() for name, draw in prediction_pictures(about, arrays, tables).items()}
 
@@ -262,7 +262,7 @@ def prediction_pictures(
 def _spectra(
     about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str, title: str
 ) -> Figure:
-    """Draw heights and spectra of the rough surface whose names begin with a prefix."""
+    """Draw heights and spectra of the rough surface with a prefix in its names."""
     tile, deformed = _tile(about, arrays, prefix), arrays[f"{prefix}deformed"]
     figure = panels(3, (1.0, 0.9), title, room=(0.55, 1.34, 0.65))
     first, second, third = figure.axes
@@ -279,7 +279,7 @@ def _spectra(
 def _roughness(
     about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str, title: str
 ) -> Figure:
-    """Draw the rough surface whose names begin with a prefix inside the contact."""
+    """Draw the rough surface with a prefix in its names inside the contact."""
     tile, deformed = _tile(about, arrays, prefix), arrays[f"{prefix}deformed"]
     outline = Outline(about.get("ellipticity", 1.0))
     if outline.slender:
@@ -300,13 +300,13 @@ def _roughness(
 
 
 def _tile(about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str) -> Topography:
-    """Return the undeformed surface whose names begin with a prefix."""
+    """Return the undeformed surface with a prefix in its names."""
     size = about[f"{prefix}length_x_m"], about[f"{prefix}length_y_m"]
     return Topography(arrays[f"{prefix}surface"], size, about[f"{prefix}surface"])
 
 
 def _flattened(about: Mapping[str, Any], tile: Topography) -> Array:
-    """Return the flattening of a tile [m] by a pressure [Pa]: the latter over E'|q|/4."""
+    """Return the flattening [m] by a pressure [Pa] of a tile: p/(E'|q|/4)."""
     kernel_ratio = ellipse(about.get("radius_ratio", 1.0)).kernel_ratio
     stiff = stiffness(np.hypot(*wavenumbers(tile)) * about["hertz_radius_m"]) / kernel_ratio
     # the mean is not flattened

@@ -28,7 +28,7 @@ EXPECTED = (
     "stribeck and response are in the folders that they write"
 )
 FORMATS = ("png", "pdf", "svg")
-MIN_WIDTH, MOST_WIDTH = 0.04, 0.4
+MIN_WIDTH, MAX_WIDTH = 0.04, 0.4
 """Widths of figures [m]."""
 UNITS = ("auto", "si", "hertz")
 # Kinds of a summary of a machine element
@@ -59,7 +59,7 @@ def save_all(
 
 
 def made(folder: str | os.PathLike[str]) -> Path:
-    """Give a folder for pictures, made where it is not there; InputError if it cannot be made."""
+    """Give a folder for pictures, made if it is missing; InputError if it cannot be made."""
     target = Path(folder)
     try:
         target.mkdir(parents=True, exist_ok=True)
@@ -86,16 +86,16 @@ def plot(
     results
         What `pyehl.solve`, `pyehl.predict` and `pyehl.load` give, or a result folder.
     output
-        Folder for the pictures; None: nothing is kept on disk.
+        Folder for the pictures; None: no files are written.
     units
-        Of the fields of a solution: 'si', 'hertz', or 'auto' for SI when the case was given in SI.
+        Units of a solution: 'si', 'hertz', or 'auto' for SI if the case was given in SI.
     format
         One of :data:`FORMATS`.
     dpi
         Dots per inch.
     width
-        Of the figures [m], such as 0.084 for a column of a journal, with letters of 8 points; 0: a
-        column of 85 mm or a page of 175 mm, by their panels.
+        Width of the figures [m], such as 0.084 for a column of a journal, with letters of 8 points;
+        0: a column of 85 mm or a page of 175 mm, by their panels.
 
     Returns
     -------
@@ -105,7 +105,7 @@ def plot(
     Raises
     ------
     InputError
-        If it is no result, or has nothing to draw, or another file has the name of a picture.
+        If it is not a result, or has nothing to draw, or another file has the name of a picture.
     FileError
         If a picture cannot be written.
 
@@ -123,12 +123,12 @@ def plot(
     if not 10 <= dpi <= 2400:
         raise InputError(f"dpi = {dpi}: 10 ... 2400 dots per inch were expected")
     check_kind(width, (int, float), "width", "a number [m]")
-    if width and not MIN_WIDTH <= width <= MOST_WIDTH:
+    if width and not MIN_WIDTH <= width <= MAX_WIDTH:
         raise InputError(
-            f"width = {width * 1e3:g} mm: {MIN_WIDTH * 1e3:g} ... {MOST_WIDTH * 1e3:g} mm were "
+            f"width = {width * 1e3:g} mm: {MIN_WIDTH * 1e3:g} ... {MAX_WIDTH * 1e3:g} mm were "
             "expected"
         )
-    # a prediction draws without them
+    # a prediction is drawn without these slow imports
     import xarray as xr  # noqa: PLC0415
 
     from pyehl.results import load  # noqa: PLC0415
@@ -159,7 +159,7 @@ def plot(
 
 
 def _of_machine(folder: Path) -> dict[str, Figure]:
-    """Draw the folder of a bearing or a gear pair; empty for other folders."""
+    """Draw the result of a bearing or a gear pair; empty for other folders."""
     try:
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):

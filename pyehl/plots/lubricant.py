@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of lubricants: viscosity and shear stress of an oil, a shear law and what it fits."""
+"""Pictures of lubricants: viscosity and shear stress of an oil, measured and fitted curves."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -20,11 +20,11 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.shear import ShearLaw, shear_stress
 from pyehl.types import Array
 
-# Of the picture of an oil: rises of temperature [K], pressures [Pa]
+# Picture of an oil: temperature increases [K], pressures [Pa], maximum pressure [Pa]
 RISES = (0.0, 20.0, 60.0)
 PRESSURES = (1e8, 5e8, 1e9)
 HIGHEST = 1.5e9
-# Stresses that an oil sustains [Pa]: Newtonian lines end there
+# Range of stresses [Pa]: Newtonian lines end at the largest that an oil sustains
 STRESSES = (1e3, 2e8)
 COLOURS = (BLUE, GREEN, VERMILLION)
 
@@ -35,9 +35,9 @@ def draw_oil(
 ) -> Figure:
     """Draw eta over p at some temperatures, and tau over the shear rate at some pressures.
 
-    `measured` are lowest and highest temperature [degC] and maximum pressure [Pa] of the
-    measurements, beyond which lines are dashed; infinite where they are not known. `limit` is the
-    limiting shear stress over pressure, None where neither is known.
+    `measured` are minimum and maximum temperature [degC] and maximum pressure [Pa] of the
+    measurements, beyond which lines are dashed; infinite if they are not known. `limit` is the
+    limiting shear stress over pressure, None if it is not known.
     """
     figure = new_figure(PAGE, 2.7)
     left, right = figure.subplots(1, 2)
@@ -79,7 +79,7 @@ def draw_oil(
 def draw_fit(
     slide_to_roll: Array, measured: Array, error: Array, curve: tuple[Array, Array], words: str
 ) -> Figure:
-    """Draw a measured traction curve with its errors (n,), and a fitted one: places, friction."""
+    """Draw a measured traction curve with its errors (n,), and a fitted one (SRR, friction)."""
     figure, ax = _measured_and_fitted(slide_to_roll, measured, error, curve, words)
     ax.set(xlabel="slide-to-roll ratio", ylabel=r"$\mu$")
     ax.set_xlim(left=0.0)

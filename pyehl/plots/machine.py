@@ -18,8 +18,8 @@ COLOURS = {"inner": BLUE, "outer": VERMILLION}
 def figure(kind: str, table: pd.DataFrame, summary: Mapping[str, Any]) -> Figure:
     """Draw the table of a machine element.
 
-    Of a 'bearing' a panel with the film and one with p_h over the azimuth, both rings; of a 'gear'
-    the same over the path of contact, and the slide-to-roll ratio with the friction.
+    A 'bearing' has panels of film and p_h over the azimuth, for both rings; a 'gear' has panels of
+    film, p_h, slide-to-roll ratio and friction along the path of contact.
     """
     return _bearing(table, summary) if kind == "bearing" else _gear(table, summary)
 
@@ -75,6 +75,6 @@ def _gear(table: pd.DataFrame, summary: Mapping[str, Any]) -> Figure:
 
 def _sigma(ax: Any, summary: Mapping[str, Any]) -> None:  # noqa: ANN401 (axes)
     """Mark three times the rms height, Lambda = 3."""
-    # not where the films would be flat beside it
+    # not if the films would be flat lines beside it
     if 0.0 < 3e9 * summary["rms_height_m"] < 1.5 * ax.get_ylim()[1]:
         ax.axhline(3e9 * summary["rms_height_m"], lw=0.8, ls=":", color=GREY, label="Λ = 3")

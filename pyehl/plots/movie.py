@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The frames of a transient run as a moving picture: film, pressure, roughness of a passage."""
+"""The frames of a transient run as a movie: film, pressure and deformed roughness."""
 
 import math
 from pathlib import Path
@@ -22,12 +22,12 @@ from pyehl.theory.operating import OperatingPoint
 
 SUFFIXES = ("gif", "mp4")
 FRAME_SECONDS, DPI = 0.08, 150
-# A GIF counts hundredths of a second, and viewers slow down frames that are shorter
-MIN_SECONDS, MOST_SECONDS = 0.02, 10.0
+# A GIF counts hundredths of a second, and viewers slow down shorter frames
+MIN_SECONDS, MAX_SECONDS = 0.02, 10.0
 
 
 def _pace(data: xr.Dataset, seconds: float, *, si: bool) -> str:
-    """State how long a frame is shown, and the time in the contact between frames."""
+    """State the duration of a frame, and the time in the contact between frames."""
     times = data["T"].values
     between = float(np.median(np.diff(times))) if times.size > 1 else 0.0
     text = f"{between:.3g} a/u"
@@ -46,10 +46,9 @@ def movie(
 ) -> Path:
     """Write the frames of a transient run as ``movie.gif`` or ``movie.mp4`` into a folder.
 
-    `data` is of a run with ``output.frame_interval`` above 0; each frame is shown for so many
-    `seconds`, which the picture states with the time between frames in the contact. The panels are
-    the film as fringes, pressure and film on the centre line, and the deformed roughness if there
-    is one.
+    `data` is from a run with ``output.frame_interval`` above 0; each frame is shown for `seconds`,
+    which the title states with the time between frames in the contact. The panels are the film as
+    fringes, pressure and film on the centre line, and the deformed roughness if there is one.
     InputError if there are no frames, or no program ffmpeg for 'mp4', or another file has the name.
     """
     if "frame_H" not in data or data.sizes["T"] == 0:
@@ -62,20 +61,20 @@ def movie(
             "contact.shape = 'line': a movie shows maps, which a line does not have\n"
             "expected: 'pyehl plot' of its result"
         )
-    if not (math.isfinite(seconds) and MIN_SECONDS <= seconds <= MOST_SECONDS):
+    if not (math.isfinite(seconds) and MIN_SECONDS <= seconds <= MAX_SECONDS):
         raise InputError(
-            f"frame_seconds = {seconds:g}: expected {MIN_SECONDS:g} ... {MOST_SECONDS:g} s"
+            f"frame_seconds = {seconds:g}: expected {MIN_SECONDS:g} ... {MAX_SECONDS:g} s"
         )
     if suffix == "mp4" and not animation.writers.is_available("ffmpeg"):
         raise InputError("an MP4 needs the program ffmpeg, which is not installed\nexpected: GIF")
-    # a GIF has whole hundredths
+    # a GIF has whole hundredths of a second
     seconds = round(100.0 * seconds) / 100.0 if suffix == "gif" else seconds
     scales = scales_of(data, units)
     outline = Outline.of(data)
     x, y, times = (data[name].values for name in "XYT")
     row = nearest(y, 0.0)
-    most = 1.05 * max(1.0, float(data.frame_P.max()))
-    # without a rough surface a duty moves the film alone
+    top_pressure = 1.05 * max(1.0, float(data.frame_P.max()))
+    # a duty of smooth surfaces has no deformed roughness
     rough = "H_smooth" in data
     smooth = data["H_smooth" if rough else "H"].values
     central = float(smooth[nearest(x, 0.0), row]) * film_unit(scales)[0]
@@ -96,7 +95,7 @@ def movie(
         contact.pressure_and_film(
             x, pressure[:, row], film[:, row], scales, half=outline.chords[0], ax=middle
         )
-        middle.set_ylim(0.0, most * (1.0 if scales is None else scales.pressure * 1e-9))
+        middle.set_ylim(0.0, top_pressure * (1.0 if scales is None else scales.pressure * 1e-9))
         middle.set_xlim(left.get_xlim())
         for right in others:
             transient.roughness(
@@ -114,7 +113,7 @@ def movie(
         about = {"comment": mark("plot")}
         writer = animation.FFMpegWriter(fps=1.0 / seconds, metadata=about)  # type: ignore[arg-type]
     else:
-        # whole milliseconds, of which the writer takes the integer part
+        # whole milliseconds, because the writer truncates them
         rate = 1000.0 / (round(1000.0 * seconds) + 0.25)
         writer = animation.PillowWriter(fps=rate)  # type: ignore[arg-type]
     with new_file(path) as partial:

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.floating[Any]]
-# Long over short side of a slender contact
+# Long over short side from which a contact is slender
 SLENDER = 2.5
-# Least height of a map over its width, and that of a roller, whose cells are not of one unit
+# Minimum height over width of a map, and of a map of a roller, whose axes have different scales
 FLATTEST, FLATTEST_ROLLER = 0.11, 0.22
 
 
@@ -32,9 +32,9 @@ class Outline:
     ellipticity
         The other semi-axis over a [-].
     angle
-        Of the axis of a against the motion, counter-clockwise [deg].
+        Angle of the axis of a from the motion, counter-clockwise [deg].
     ends
-        Whether it is a roller, half as long as by `ellipticity`.
+        Whether it is a roller, with `ellipticity` as half its length.
     """
 
     ellipticity: float = 1.0
@@ -43,7 +43,7 @@ class Outline:
 
     @classmethod
     def of(cls, data: xr.Dataset) -> Outline:
-        """Of a solution."""
+        """Outline of a solution."""
         about = summary_of(data)
         if about.get("shape") == "roller":
             return cls(0.5 * float(about["length"]), ends=True)
@@ -51,30 +51,30 @@ class Outline:
 
     @property
     def reach(self) -> tuple[float, float]:
-        """How far it reaches along x and along y."""
+        """Half extents along x and y."""
         c, s = math.cos(math.radians(self.angle)), math.sin(math.radians(self.angle))
         return math.hypot(c, self.ellipticity * s), math.hypot(s, self.ellipticity * c)
 
     @property
     def turned(self) -> bool:
-        """Whether pictures show y from left to right, and the motion from below to above."""
+        """Whether pictures show y from left to right, and the motion upwards."""
         along, across = self.reach
         return across > SLENDER * along
 
     @property
     def slender(self) -> bool:
-        """Whether one side is so much longer that maps are drawn below one another."""
+        """Whether one side is so much longer that maps are stacked."""
         along, across = self.reach
         return max(along, across) > SLENDER * min(along, across)
 
     @property
     def box(self) -> tuple[float, float]:
-        """How far it reaches to the right and up in a picture."""
+        """Half extents to the right and up in a picture."""
         along, across = self.reach
         return (across, along) if self.turned else (along, across)
 
     def view(self, margin: float) -> tuple[float, float]:
-        """Half width and half height of a map with a margin [a]; one that is not too flat."""
+        """Half width and half height of a map with a margin [a], which is not too flat."""
         wide, high = (margin * reach for reach in self.box)
         if self.ends:
             # a roller ends with its domain
@@ -87,7 +87,7 @@ class Outline:
         return max(high / wide, FLATTEST_ROLLER) if self.ends else high / wide
 
     def seen(self, x: Array, y: Array, field: Array) -> tuple[Array, Array, Array]:
-        """Places from left to right, from below to above, and a field of them."""
+        """Coordinates to the right and up in a picture, and a field over them."""
         return (y, x, field.swapaxes(0, 1)) if self.turned else (x, y, field)
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Panels side by side, or below one another, and the conditions of a picture."""
+"""Panels side by side, or stacked, and the conditions of a picture."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -12,18 +12,18 @@ from pyehl.plots.style import new_figure as laid_out
 
 # Room below and above a row of panels [in]
 BELOW, ABOVE = 0.42, 0.22
-# Beside and between panels below one another [in]
+# Room beside and between stacked panels [in]
 LEFT, RIGHT, GAP = 0.6, 0.8, 0.12
-# At the right of panels without a colour bar [in]
+# Room at the right of panels without a colour bar [in]
 MARGIN = 0.12
-# Panels narrower than this are put below one another [in]
+# Panels narrower than this are stacked [in]
 MIN_PANEL = 2.0
 
 
 def headline(summary: Mapping[str, Any], scales: Scales | None = None) -> str:
-    """M, L, p_h and film in one line; the status in capitals unless it is a good one.
+    """M, L, p_h and film in one line, and in capitals the status of a failed run.
 
-    Of the scalars of a solution or a prediction, with scales in SI units, else in Hertz units.
+    From the scalars of a solution or a prediction; in SI units with scales, else in Hertz units.
     """
     shape = summary.get("shape")
     line = shape in ("line", "roller")
@@ -52,11 +52,11 @@ def panels(
     sharey: bool = False,
     room: tuple[float, float, float] | None = None,
 ) -> Figure:
-    """Make a figure with panels of a width over height, one column or one page wide.
+    """Make a figure with panels of a size (width, height), one column or one page wide.
 
-    `conditions` are its label, which goes into the metadata of a file; those of a run that failed
-    stand above the panels. `room`: left of, between and right of panels side by side in inches,
-    where it is known. Then nothing is measured, which takes as long as to draw.
+    `conditions` are its label, which goes into the metadata of a file; the status of a failed run
+    is printed above the panels. `room`: space left of, between and right of panels side by side, in
+    inches, if it is known; it saves the automatic layout, which takes as long as drawing.
     """
     width = page(count)
     columns = 1 if width < count * MIN_PANEL else count
@@ -75,9 +75,9 @@ def panels(
 
 
 def rows(heights: Sequence[float], conditions: str, right: float = RIGHT) -> Figure:
-    """Make a figure with panels below one another, of a given height over their width.
+    """Make a figure with stacked panels of given heights over their width.
 
-    All are equally wide, with room at the right [in], unless given that of a colour bar.
+    All are equally wide, with room at the right [in], by default for a colour bar.
     """
     width = page(2)
     wide = width - LEFT - right
@@ -92,12 +92,12 @@ def rows(heights: Sequence[float], conditions: str, right: float = RIGHT) -> Fig
 
 
 def page(count: int) -> float:
-    """Width of a figure of so many panels [in]."""
+    """Width of a figure with a number of panels [in]."""
     return PAGE_WIDTH.get() or (COLUMN if count == 1 else PAGE)
 
 
 def failed(conditions: str) -> bool:
-    """Whether they end with the status of a run that failed."""
+    """Whether they end with the status of a failed run."""
     return conditions.rpartition(",  ")[2].isupper()
 
 
@@ -109,15 +109,15 @@ def _labelled(figure: Figure, conditions: str) -> Figure:
     return figure
 
 
-def no_second_label(ax: Axes) -> None:
-    """Leave out the label of the y axis that panels side by side share."""
+def drop_second_label(ax: Axes) -> None:
+    """Remove the label of a y axis shared with the panel at the left."""
     place = ax.get_subplotspec()
     if place is not None and not place.is_first_col():
         ax.set_ylabel("")
 
 
-def no_numbers_below(*axes: Axes) -> None:
-    """Leave out numbers and label of x axes that panels below have, too."""
+def drop_x_labels(*axes: Axes) -> None:
+    """Remove numbers and labels of x axes that the panels below repeat."""
     for ax in axes:
         ax.tick_params(labelbottom=False)
         ax.set_xlabel("")

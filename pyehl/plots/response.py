@@ -20,7 +20,7 @@ def response_figure(
     """Draw |T| and the phase of T at X = 0 over nabla_2.
 
     `waves`: nabla_2, direction [deg], amplitude and lag [deg] of the measured waves, (m,);
-    `lines`: by direction [deg] the shipped response, nabla_2 (n,) and T (n,).
+    `lines`: the shipped response by direction [deg], nabla_2 (n,) and T (n,).
     """
     figure = new_figure(PAGE, 3.0)
     axes: Any = figure.subplots(1, 2, sharex=True)
@@ -50,13 +50,13 @@ def response_figure(
 
 
 def _lag(t: Complex) -> Array:
-    """Phase of T along a line [deg], without jumps from the longest wave on, which drifts least."""
+    """Phase of T along a line [deg], unwrapped from the longest wave, which has the least lag."""
     return np.degrees(np.unwrap(np.angle(t)[::-1])[::-1])
 
 
 def _turned(waves: Mapping[str, Array], lines: Mapping[float, tuple[Array, Complex]]) -> Array:
-    """Lags of the measured waves [deg], shifted by full turns to be near the lines."""
-    # the drift of a wave goes with the cosine of its direction
+    """Lags of the measured waves [deg], shifted by multiples of 360 deg to be near the lines."""
+    # the lag of a wave depends on the cosine of its direction
     directions = sorted(lines, reverse=True)
     cosines = np.cos(np.radians(directions))
     lags = np.stack(

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of Stribeck curves and of traction curves.
 
-Friction over the varied key, with Lambda above, and contact at a boundary film below it; friction
-and temperature over the slide-to-roll ratio.
+A Stribeck curve shows friction over the varied key with Lambda on an upper axis, and solid contact
+below it; a traction curve shows friction and temperature over the slide-to-roll ratio.
 """
 
 from collections.abc import Mapping, Sequence
@@ -26,20 +26,20 @@ LABELS = {
     "lubricant.temperature": "temperature [°C]",
     "contact.slide_to_roll": "slide-to-roll ratio",
 }
-# Longest over shortest place from which on the axis is logarithmic
+# Maximum over minimum of the varied key from which the axis is logarithmic
 WIDE = 3.0
 
 
 @dataclass(frozen=True, slots=True)
 class Points:
-    """Friction at some places: places by abscissa, values and errors, all (n,)."""
+    """Measured friction: positions by abscissa, values and errors, all (n,)."""
 
     places: Mapping[str, Array]
     friction: Array
     error: Array
 
     def draw(self, ax: Axes, abscissa: str) -> None:
-        """Draw them as measured ones, with bars where an error is known."""
+        """Draw them, with bars where an error is known."""
         how = {"fmt": "k^", "ms": 4, "mfc": "none", "capsize": 2, "lw": 0.8, "label": "measured"}
         style.points(ax, self.places[abscissa], self.friction, self.error, **how)
 
@@ -51,14 +51,14 @@ def draw_stribeck(
     """Draw friction over the varied key, a coefficient or a ratio mu_r/mu_s.
 
     `conditions` go into the metadata of a file, with a description of an empirical `law`. Measured
-    friction is drawn over it, and over a ratio the curve of Zhang et al. 2019. A single curve has
-    Lambda on an axis above.
+    friction is drawn in the same axes, and with a ratio the curve of Zhang et al. 2019. A single
+    curve has Lambda on an upper axis.
     """
     absolute, key = curves[0].absolute, curves[0].key
-    # none of two surfaces without full simulations
+    # two surfaces have load shares of full simulations only
     shares = ("contact_load_share", "contact_load_share_ehl")
     contact = any(_known(curve, name) for curve in curves for name in shares)
-    # none with solid contact whose friction is not known
+    # solid contact with unknown friction has no panel of friction
     friction = not contact or any(_has_friction(curve) for curve in curves)
     rows = friction + 2 * contact
     width = page(1)
@@ -91,7 +91,7 @@ def draw_stribeck(
 
 
 def _named(curve: Curve) -> str:
-    """Label of a curve; '' for the only one."""
+    """Label of a curve; '' for a single one."""
     name = curve.label
     for key, words in LABELS.items():
         name = name.replace(key, words)
@@ -99,7 +99,7 @@ def _named(curve: Curve) -> str:
 
 
 def _scale(ax: Axes, places: Array) -> None:
-    """Make the x axis logarithmic where places reach far, with numbers that are read."""
+    """Make the x axis logarithmic over a wide range, with readable numbers."""
     if places.min() > 0.0 and places.max() >= WIDE * places.min():
         ax.set_xscale("log")
         ax.set_xlim(places.min() / 1.1, places.max() * 1.1)
@@ -110,7 +110,7 @@ def _scale(ax: Axes, places: Array) -> None:
 
 
 def _lambda_above(ax: Axes, curve: Curve) -> None:
-    """Put Lambda above the axes where it rises or falls all along the curve."""
+    """Add an upper axis with Lambda if it is monotonic along the curve."""
     x, result = curve.places, curve.column("lambda_ratio")
     known = np.isfinite(result) & (result > 0.0)
     x, result = x[known], result[known]
@@ -159,7 +159,7 @@ def _draw_curve(ax: Axes, curve: Curve, colour: str) -> None:
 
 
 def _shade(ax: Axes, curves: Sequence[Curve]) -> None:
-    """Shade where the film breaks down: up to half-way to the first point of full film."""
+    """Shade film breakdown, up to half-way to the first point of full film."""
     for curve in curves:
         x = curve.places
         ends = np.isin(np.arange(x.size), curve.broken)
@@ -183,7 +183,7 @@ def _middle(ax: Axes, low: float, high: float) -> float:
 
 
 def _draw_eq_16(ax: Axes, curves: Sequence[Curve]) -> None:
-    """Draw the ratio of harmonic waves with theta_2 of each point; axes keep their ends."""
+    """Draw the ratio of harmonic waves at theta_2 of each point; the limits of the axes stay."""
     limits = ax.get_ylim()
     for curve in curves:
         theta = curve.column("theta_2")
@@ -196,7 +196,7 @@ def _draw_eq_16(ax: Axes, curves: Sequence[Curve]) -> None:
 
 
 def draw_contact(share: Axes, film: Axes, curves: Sequence[tuple[Curve, str]]) -> None:
-    """Draw shares of load and area on one axes, minimum film on the other.
+    """Draw load share and area share in one panel, minimum film in the other.
 
     Lines are predictions, squares and diamonds full simulations.
     """
@@ -241,10 +241,9 @@ def draw_traction(
     measured: Points | None = None,
     law: str = "",
 ) -> Figure:
-    """Draw coefficients of friction, and the maximum temperature increase where it was computed.
+    """Draw coefficients of friction, and the maximum temperature increase if it was computed.
 
-    Without sliding there is no friction of sliding. `conditions` and `law` as of `draw_stribeck`;
-    measured friction is laid over.
+    Friction is 0 without sliding. `conditions`, `measured` and `law` as in `draw_stribeck`.
     """
     warm = any(np.isfinite(curve.column("temperature_rise_max_K")).any() for curve in curves)
     width = page(1)

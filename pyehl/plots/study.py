@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of a study: results over the first varied key, a line for each other value."""
+"""The picture of a study: results over the first varied key, a line for each value of others."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -22,12 +22,12 @@ from pyehl.types import Array
 
 LINES = (*COLOURS, GREY)
 MARKERS = "os^Dv<>"
-# Values over a larger range are drawn over a logarithmic axis
+# Maximum over minimum from which the axis is logarithmic
 WIDE = 20.0
 
 
 class Line(NamedTuple):
-    """One line of a panel: its label ('' for the only one), places, values, errors (NaN: none)."""
+    """One line of a panel: label ('' for a single one), places, values, errors (NaN: none)."""
 
     label: str
     places: Array

@@ -2,9 +2,9 @@
 """Common parts of all pictures: the style sheet, sizes, colours, units, letters.
 
 Figures are drawn for print: letters of 8 points, one column or one page wide, no titles. Maps are
-colour-blind safe; lengths are in mm, films in nm or um, pressures in GPa when scales are given,
-else in Hertz units. Labels are plain text where it means the same: to set mathematics takes as long
-as the rest of a panel.
+colour-blind safe; lengths are in mm, films in nm or um, pressures in GPa if scales are given, else
+in Hertz units. Labels are plain text if possible: typesetting mathematics takes as long as the rest
+of a panel.
 """
 
 import io
@@ -38,7 +38,7 @@ DPI = 200
 INCH = 0.0254
 # Widths of a column and of a page of a journal [in]
 COLUMN, PAGE = 0.085 / INCH, 0.175 / INCH
-# Okabe & Ito: distinguishable by everybody
+# Okabe & Ito: colour-blind safe
 BLUE, VERMILLION, GREEN, GREY = "#0072B2", "#D55E00", "#009E73", "#666666"
 PURPLE, ORANGE, SKY = "#CC79A7", "#E69F00", "#56B4E9"
 COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
@@ -60,11 +60,11 @@ STYLE: Any = {
     "axes.prop_cycle": cycler(color=COLOURS),
 }
 """The style sheet."""
-# For PNG files: twice as fast as the usual way, and as small
+# For PNG files: twice as fast as the default, and as small
 COMPRESSION = {"compress_type": zlib.Z_RLE}
 SEQUENTIAL, DIVERGING = "viridis", "PuOr_r"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-# Powers of ten as plain text: to read them as mathematics takes as long as the rest of an axis
+# Powers of ten as plain text: typesetting them takes as long as the rest of an axis
 POWERS = FuncFormatter(lambda value, _: "10" + f"{math.log10(value):.0f}".translate(SUPERSCRIPTS))
 
 
@@ -82,39 +82,39 @@ class Scales:
     thin: bool = False  # films are shown in nm, else in um
 
 
-# Width of the page that figures are drawn for [in]; 0: a column or a page, by their panels
+# Width of figures [in]; 0: a column or a page, by their panels
 PAGE_WIDTH: ContextVar[float] = ContextVar("PAGE_WIDTH", default=0.0)
-# Long over short side of a map from which the latter has one number alone
+# Long over short side of a map from which the short one has a single number
 SLENDER = 4.0
-# Letters of 8 points in an inch, and as many as a sign of a legend and the gaps beside it take
+# Letters of 8 points per inch, and the width of a legend handle with its gaps in letters
 LETTERS_PER_INCH, HANDLE = 14.0, 7
-# Distance of numbers above one another over the width of a map, at least
+# Minimum vertical distance of numbers over the width of a map
 CLOSE = 0.035
 # Half width of a band over the height of its axes below which the line hides it
 THIN_BAND = 0.005
-# Height over width of a map from which on it is flat
+# Height over width below which a map is flat
 FLAT = 0.5
 
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """Draw by the style sheet; also a decorator."""
+    """Apply the style sheet; also a decorator."""
     with rc_context(STYLE):
         yield
 
 
 class Picture(Figure):
-    """A figure of the style sheet; ticks and the layout are made when it is drawn."""
+    """A figure with the style sheet, which also applies when ticks and layout are drawn."""
 
     def draw(self, renderer: Any) -> None:  # noqa: ANN401
-        """Draw it by the style sheet."""
+        """Draw it with the style sheet."""
         with rc_context(STYLE):
             super().draw(renderer)
 
 
 @contextmanager
 def page_width(metres: float) -> Iterator[None]:
-    """Draw figures so wide; 0: a column or a page, by their panels."""
+    """Set the width of figures [m]; 0: a column or a page, by their panels."""
     token = PAGE_WIDTH.set(metres / INCH)
     try:
         with rc_context(STYLE):
@@ -124,12 +124,12 @@ def page_width(metres: float) -> Iterator[None]:
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """Make an empty figure of a size in inches, laid out by itself."""
+    """Make an empty figure of a size in inches, with automatic layout."""
     return Picture(figsize=(width, height), layout="constrained")
 
 
 def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
-    """Give the axes back, or those of a new pyplot figure of a size in inches."""
+    """Return the axes, or those of a new pyplot figure of a size in inches."""
     if ax is None:
         from matplotlib import pyplot  # noqa: PLC0415 (heavy, and no file needs it)
 
@@ -146,10 +146,10 @@ def not_known(ax: Axes) -> None:
 def colour_bar(
     image: ScalarMappable, ax: Axes, label: str, *, slender: float = 1.0, above: bool = False
 ) -> None:
-    """Put a colour bar beside axes, as high as they are.
+    """Put a colour bar beside axes, with the same height.
 
-    `slender`: height of the axes over their width; `above`: the label stands above the bar, as
-    beside a flat map, where there is no room along the bar.
+    `slender`: height of the axes over their width; `above`: the label is above the bar, as beside a
+    flat map, which has no room along the bar.
     """
     broad = 0.05 * min(1.0, max(slender, 0.3))
     beside = ax.inset_axes((1.0 + 0.8 * broad, 0.0, broad, 1.0))
@@ -185,7 +185,7 @@ def y_label(ax: Axes, label: str, colour: str) -> None:
 
 
 def label_decades(*axes: Axis, most: int = 9) -> None:
-    """Label the decades of logarithmic axes as `POWERS` does, or numbers between where few are."""
+    """Label the decades of logarithmic axes, or numbers between them if they are few."""
     for axis in axes:
         low, high = axis.get_view_interval()
         if high > 30.0 * low:
@@ -196,22 +196,22 @@ def label_decades(*axes: Axis, most: int = 9) -> None:
 
 
 def few_ticks(ax: Axes) -> None:
-    """Give each axis of a map as many numbers as there is room for."""
+    """Give each axis of a map the numbers that it has room for."""
     wide, high = (float(np.ptp(axis.get_view_interval())) for axis in (ax.xaxis, ax.yaxis))
-    for axis, share in ((ax.xaxis, wide / high), (ax.yaxis, high / wide)):
+    for axis, ratio in ((ax.xaxis, wide / high), (ax.yaxis, high / wide)):
         low, top = (float(end) for end in axis.get_view_interval())
-        if share < 1.0 / SLENDER:
-            # numbers above one another need less room than side by side
+        if ratio < 1.0 / SLENDER:
+            # stacked numbers need less room than those side by side
             place = round_below(0.85 * min(top, -low)) if low < 0.0 < top else 0.0
             room = axis is ax.yaxis and place > CLOSE * wide
             places = [0.0, place, -place][: 1 + 2 * room] if low < 0.0 else [top]
             axis.set_ticks(places, [f"{p:.3g}".replace("-", "−") for p in places])
         else:
-            axis.set_major_locator(MaxNLocator(4 if share > 2.0 else 2 if share < 0.7 else 3))
+            axis.set_major_locator(MaxNLocator(4 if ratio > 2.0 else 2 if ratio < 0.7 else 3))
 
 
 def round_below(value: float) -> float:
-    """Give the 1, 2 or 5 times a power of ten nearest below a positive value."""
+    """Round a positive value down to 1, 2 or 5 times a power of ten."""
     power = 10.0 ** math.floor(math.log10(value))
     return next(step * power for step in (5.0, 2.0, 1.0) if step * power <= value * (1 + 1e-12))
 
@@ -229,10 +229,10 @@ def contact_heights(
     ax: Axes,
     outline: Outline = CIRCLE,
 ) -> None:
-    """Draw heights inside the Hertz ellipse, with a colour bar or not; their rms stands above.
+    """Draw heights inside the Hertz ellipse, optionally with a colour bar; the title has their rms.
 
-    Heights (nx, ny) are in `unit`, NaN outside of the ellipse, `top` is the largest of the scale;
-    places x (nx,), y (ny,) and semi-axis along the motion are in the unit of the axes.
+    Heights (nx, ny) are in `unit`, NaN outside of the ellipse, `top` is the maximum of the scale;
+    positions x (nx,), y (ny,) and semi-axis along the motion are in the unit of the axes.
     """
     across, up, seen = outline.seen(x, y, heights)
     image = ax.imshow(
@@ -262,7 +262,7 @@ def place_labels(ax: Axes, x: str, y: str, outline: Outline) -> None:
 def extent_of(
     x: NDArray[np.floating[Any]], y: NDArray[np.floating[Any]], unit: float = 1.0
 ) -> tuple[float, float, float, float]:
-    """Outer edges of a map with such pixels, for imshow, in a unit."""
+    """Outer edges of a map with pixels at x and y, for imshow, in a unit."""
     half_x, half_y = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
     ends = x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y
     left, right, bottom, top = (float(end) * unit for end in ends)
@@ -279,7 +279,7 @@ def save(figure: Figure, path: str | Path, dpi: int = DPI, command: str = "plot"
     options: dict[str, Any] = {"metadata": {"Creator": mark(command)}}
     if path.suffix == ".png":
         options = {"metadata": {"Software": mark(command)}, "pil_kwargs": COMPRESSION}
-    # fonts are put into PDF files as TrueType
+    # PDF files embed fonts as TrueType
     if words := str(figure.get_label()):
         field = {".png": "Description", ".svg": "Description", ".pdf": "Subject"}.get(path.suffix)
         options["metadata"] |= {field: words} if field else {}
@@ -291,7 +291,7 @@ def save(figure: Figure, path: str | Path, dpi: int = DPI, command: str = "plot"
 def png(figure: Figure, dpi: int) -> bytes:
     """Give a figure as the bytes of a PNG."""
     stream = io.BytesIO()
-    # small rather than quick: it goes into a page
+    # optimised for size: it is embedded in a page
     figure.savefig(stream, format="png", dpi=dpi, pil_kwargs={"optimize": True})
     return stream.getvalue()
 
@@ -300,7 +300,7 @@ def letter(axes: Sequence[Axes]) -> None:
     """Mark several axes (a), (b), ...."""
     if len(axes) > 1:
         for mark, ax in zip("abcdef", axes, strict=False):
-            # at a given height nothing is measured to keep clear of what is above the axes
+            # a fixed height saves the measurement of other text above the axes
             ax.set_title(f"({mark})", loc="left", y=1.0)
 
 
@@ -326,16 +326,16 @@ def film_unit(scales: Scales | None) -> tuple[float, str]:
 
 
 def hertz_ticks(ax: Axes, outline: Outline = CIRCLE) -> None:
-    """Mark the contact radius and its half on both axes, of an ellipse how far it reaches."""
+    """Mark the contact radius and its half on both axes, or the extents of an ellipse."""
     for axis, reach in zip((ax.xaxis, ax.yaxis), outline.box, strict=True):
         places = reach * np.array([-1.0, -0.5, 0.0, 0.5, 1.0] if outline == CIRCLE else [-1, 0, 1])
         axis.set_ticks(places, [f"{place:.3g}".replace("-", "−") for place in places])
 
 
 def label_log_ticks(axis: Axis, most: int = 9) -> None:
-    """Label 1, 2 and 5 of each decade of a logarithmic axis where there are few decades.
+    """Label 1, 2 and 5 of each decade of a logarithmic axis with few decades.
 
-    At most so many of them.
+    At most `most` of them.
     """
     low, high = axis.get_view_interval()
     if high < 100.0 * low:
@@ -351,7 +351,7 @@ def label_log_ticks(axis: Axis, most: int = 9) -> None:
 
 
 def _short(value: float) -> str:
-    """Write the number of a tick; as a power of ten where it is very large or small."""
+    """Write the number of a tick, with a power of ten if it is very large or small."""
     if 1e-3 <= value < 1e4:
         return f"{value:g}"
     digits, _, power = f"{value:.2e}".partition("e")
@@ -360,16 +360,16 @@ def _short(value: float) -> str:
 
 
 def points(ax: Axes, x: Array, y: Array, error: Array, **how: Any) -> None:  # noqa: ANN401
-    """Draw points (n,), those that are numbers, with bars where one of their errors is known."""
+    """Draw the finite ones of points (n,), with bars if an error is known."""
     known = np.isfinite(x) & np.isfinite(y)
     bars = np.nan_to_num(error[known])
     ax.errorbar(x[known], y[known], bars if bars.any() else None, **how)
 
 
 def band(ax: Axes, x: Array, y: Array, error: Array, **how: Any) -> None:  # noqa: ANN401
-    """Shade around a line (n,) that is drawn already, where its error is known.
+    """Shade the error around a line (n,) that is already drawn, where it is known.
 
-    A band that is thinner than the line is not in the legend.
+    The legend omits a band that is thinner than the line.
     """
     known = np.isfinite(x) & np.isfinite(y) & np.isfinite(error)
     if known.any():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stress below the surface: the section y = 0, and the largest shear over depth."""
+"""Stress below the surface: the section y = 0, and the maximum shear over depth."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from pyehl.plots import style
 if TYPE_CHECKING:
     import xarray as xr
 
-# Levels of the contours, and the deepest and widest part of the section [short half widths]
+# Number of contours; depth [short half widths] and half width [a] of the section
 LEVELS, DEEP, WIDE = 12, 1.5, 1.5
 
 
@@ -30,14 +30,14 @@ def _units(data: xr.Dataset) -> tuple[float, str, float, str]:
 
 
 def section(data: xr.Dataset, ax: Axes | None = None) -> Axes:
-    """Contours of the principal shear stress on y = 0, largest over time.
+    """Contours of the principal shear stress on y = 0, the maximum over time.
 
     Parameters
     ----------
     data
         A result of `pyehl.stress`.
     ax
-        Where to draw; None: a new figure.
+        Axes; None: a new figure.
     """
     ax = style.axes_or_new(ax, 4.6, 3.0)
     length, unit, factor, label = _units(data)
@@ -53,7 +53,7 @@ def section(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 
 
 def over_depth(data: xr.Dataset, ax: Axes | None = None) -> Axes:
-    """Largest principal shear over depth, of a rough contact beside the smooth one."""
+    """Maximum principal shear over depth, of a rough contact beside the smooth one."""
     ax = style.axes_or_new(ax, 3.4, 3.0)
     length, unit, factor, label = _units(data)
     z = np.maximum(data.Z.values, 0.5 * data.Z.values[1]) * length
@@ -62,7 +62,7 @@ def over_depth(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         data.principal_shear.values * factor,
         z,
         color=style.BLUE,
-        label="rough, largest over time" if rough else "smooth",
+        label="rough, maximum over time" if rough else "smooth",
     )
     if rough:
         smooth = data.principal_shear_smooth.values * factor

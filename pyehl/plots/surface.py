@@ -22,16 +22,16 @@ from pyehl.surfaces.map_steps import nearest
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.types import Array
 
-# Least spectral density that is drawn, as a share of the largest
+# Minimum spectral density that is drawn, over the maximum
 FLOOR = 1e-10
-# Most places of a map along each side: more are not seen
+# Maximum number of pixels of a map along each side: more are not visible
 PLACES = 1201
 C_ISO = r"$C_\mathrm{iso}$ [m⁴]"
 RATIO = r"$\mu_r/\mu_s$"
-# Powers of ten beyond which they stand above an axis, so that its numbers are short
+# Powers of ten beyond which an axis has a common factor, to keep its numbers short
 SHORT = (-3, 4)
 SHOWN = 0.005
-"""Share of the heights that may lie beyond either end of the colours, against spikes."""
+"""Fraction of the heights beyond either end of the colour scale, so that spikes do not set it."""
 
 
 def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
@@ -74,15 +74,15 @@ def spectrum_line(
 ) -> Axes:
     """Radially averaged spectrum C_iso [m^4] of a tile, and the response of a contact to its waves.
 
-    On a second axis abs(T), the share of a wave that remains in the contact, and abs(1 - T), the
-    share that pressure flattens.
+    A second axis has abs(T), the fraction of a wave that remains in the contact, and abs(1 - T),
+    the fraction that pressure flattens.
 
     Parameters
     ----------
     topography
         The tile.
     deformed, flattened
-        Deformed roughness and its flattened part [m], as the tile.
+        Deformed roughness and its flattened part [m], of the shape of the tile.
     """
     ax = style.axes_or_new(ax, 3.8, 3.0)
     q, c_iso = psd_isotropic(topography)
@@ -97,11 +97,11 @@ def spectrum_line(
         (flattened, "--", "x", "|1 − T|"),
     ):
         part = Topography(values, topography.size)
-        share = np.sqrt(psd_isotropic(part)[1][shown] / c_iso[shown])
+        ratio = np.sqrt(psd_isotropic(part)[1][shown] / c_iso[shown])
         # a single wave is a point
-        marker = mark if share.size == 1 else ""
+        marker = mark if ratio.size == 1 else ""
         twin.plot(
-            1e-6 * q[shown], share, line, marker=marker, color=style.VERMILLION, lw=1.4, label=label
+            1e-6 * q[shown], ratio, line, marker=marker, color=style.VERMILLION, lw=1.4, label=label
         )
     style.y_label(twin, "|T|; dashed |1 − T|", style.VERMILLION)
     return ax
@@ -122,11 +122,11 @@ def roughness(
     Parameters
     ----------
     topography
-        The undeformed tile; repeated over the contact, its pixel [0, 0] at the centre.
+        The undeformed tile, repeated over the contact with its pixel [0, 0] at the centre.
     values
-        Heights of the same shape that are drawn [m]: the undeformed or the deformed ones.
+        Heights to draw [m], of the same shape: undeformed or deformed.
     hertz_radius
-        a [m], of an ellipse the semi-axis along the motion.
+        a [m], for an ellipse the semi-axis along the motion.
     name
         Name of the field in the title, which also gives its rms.
     bar
@@ -138,7 +138,7 @@ def roughness(
     nx, ny = topography.shape
     px, py = topography.pixel
     a, b = hertz_radius, ellipticity * hertz_radius
-    # a tile of small pixels has more of them in the contact than a picture can show
+    # a contact may have more pixels than a picture can show
     strides = [_stride(s / p, n) for s, p, n in ((a, px, nx), (b, py, ny))]
     i, j = (
         stride * np.arange(-int(s / p / stride), int(s / p / stride) + 1)
@@ -162,9 +162,9 @@ def roughness(
 
 
 def _stride(half: float, pixels: int) -> int:
-    """Take every so many-th pixel of a tile in a contact, half as long as so many pixels."""
+    """Stride of the pixels to draw of a tile in a contact, `half` pixels from its centre to end."""
     stride = max(1, math.ceil((2 * int(half) + 1) / PLACES))
-    # so that repeated tiles show all of their pixels
+    # coprime with the tile, so that repeated tiles show all of their pixels
     while stride > 1 and math.gcd(stride, pixels) > 1:
         stride += 1
     return stride
@@ -178,7 +178,7 @@ def passage(
     second: Array | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """mu_r/mu_s over one passage of the tile, or a common period of two.
+    """mu_r/mu_s over one passage of the tile, or over a common period of two.
 
     Parameters
     ----------
@@ -186,10 +186,10 @@ def passage(
         (n,) displacement of the tile [m], equally spaced from 0, and mu_r/mu_s there [-]; NaN where
         it is not known.
     length
-        Of the tile along x [m].
+        Length of the tile along x [m].
     second
-        (n,) displacement of the tile of a second surface [m]. Where it goes back, the positions are
-        not those of a common period but all that two tiles may have, in no order of time.
+        (n,) displacement of the tile of a second surface [m]. If it is not monotonic, the positions
+        are not those of a common period but all relative ones of two tiles, in no order of time.
     """
     ax = style.axes_or_new(ax, 3.8, 2.9)
     known = np.isfinite(ratio)
@@ -213,7 +213,7 @@ def passage(
     ax.set(xlim=(0.0, length * scale), xlabel=name)
     ax.set(ylabel=RATIO)
     ax.ticklabel_format(axis="y", scilimits=SHORT)
-    # at the left is the letter of the panel
+    # the letter of the panel is at the left
     ax.yaxis.get_offset_text().set(x=1.0, ha="right")
     ax.legend(loc="best")
     return ax
@@ -225,7 +225,7 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     Parameters
     ----------
     bands
-        Longest and shortest wavelength [m] and increase [-] of each octave; NaN where not known.
+        Longest and shortest wavelength [m] and increase [-] of each octave; NaN if not known.
     """
     ax = style.axes_or_new(ax, 3.8, 2.9)
     ax.set(xlabel="wavelength of the component [μm]", ylabel=f"contribution to {RATIO}")
@@ -243,7 +243,7 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     ax.axhline(0.0, color=style.GREY, lw=0.8)
     ax.set_xscale("log")
     style.label_decades(ax.xaxis)
-    # a power of ten above the panel would lie on its letter: for large contributions alone
+    # a power of ten would overlap the letter of the panel: only for large contributions
     ax.ticklabel_format(axis="y", scilimits=(-9, SHORT[1]))
     ax.legend()
     return ax
@@ -255,8 +255,8 @@ def before_and_after(
 ) -> Figure:
     """Draw a surface before and after preparation, and its isotropic spectrum.
 
-    With conditions, which are a [m], M, L and the wavelength convention, the amplitude reduction
-    A_d/A_i is drawn over the spectrum, for waves along x.
+    `conditions` are a [m], M, L and the wavelength convention; with them the amplitude reduction
+    A_d/A_i of waves along x is drawn over the spectrum.
     """
     made = surface.preparation
     figure = style.new_figure(style.PAGE, 2.3 if made else 2.8)
@@ -268,7 +268,7 @@ def before_and_after(
         scan = made.scan
         size = scan.length_x, scan.length_y
         _map(axes[0], scan.heights - np.nanmean(scan.heights), size, "as measured")
-        # as if it were a tile, its holes filled with neighbouring values
+        # treated as a tile, its holes filled with neighbouring values
         z = nearest(scan.heights)
         raw = Topography(z - z.mean(), size)
         nx, ny = made.prepared.shape
@@ -284,7 +284,7 @@ def before_and_after(
 
 
 def _map(ax: Axes, heights: Array, size: tuple[float, float], title: str) -> None:
-    """Heights in colours; a hole is white."""
+    """Heights as a map; holes are white."""
     low, high = np.nanquantile(heights, [SHOWN, 1.0 - SHOWN])
     top = float(max(abs(low), abs(high))) or 1.0
     unit, name = style.height_unit(top)
@@ -303,7 +303,7 @@ def _map(ax: Axes, heights: Array, size: tuple[float, float], title: str) -> Non
 
 
 def _mark(ax: Axes, findings: Sequence[Finding], scale: float) -> None:
-    """Outline steps and specks of dust on a map as measured; `scale`: its unit of length per m."""
+    """Outline steps and dust specks on the measured map; `scale`: its unit of length per metre."""
     (image,) = ax.get_images()
     right = float(image.get_extent()[1])
     for finding in findings:

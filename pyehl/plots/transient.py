@@ -24,7 +24,7 @@ from pyehl.types import Array, Mask, Settings
 
 
 def eq_16(summary: Mapping[str, Any], settings: Settings) -> float | None:
-    """mu_r/mu_s by eq. 16 of Zhang et al. 2019 for the waviness of a run, with its own H_c.
+    """mu_r/mu_s by eq. 16 of Zhang et al. 2019 for the waviness of a run, with its H_c.
 
     Parameters
     ----------
@@ -70,13 +70,13 @@ def friction_history(
     time, ratio
         (n,) T [a/u] and mu_r/mu_s [-].
     period
-        Time over which the mean was taken: the last one is shaded; 0: none.
+        Averaging time; the last one is shaded; 0: none.
     mean
         Mean over it; None: not drawn.
     formula
         mu_r/mu_s by eq. 16; None: not drawn.
     seconds
-        a/u [s] for a second axis in SI units; 0: none.
+        a/u [s], for a second axis in SI units; 0: none.
     """
     ax = style.axes_or_new(ax, 5.4, 3.4)
     end = float(time[-1])
@@ -154,9 +154,9 @@ def extremes_history(
 def quasi_static(history: Mapping[str, Array], settings: Settings, film: float) -> Array | None:
     """Central film [m] of steady contacts at the times of a duty, (n,).
 
-    By the film formula, scaled to the solved `film` [m] of the case; NaN where the
-    lubricant is at rest; None where the radius across the motion changes, which is not in the
-    history, or a layer of oil arrives.
+    By the film formula, scaled to the solved `film` [m] of the case; NaN where the lubricant is at
+    rest; None if the radius across the motion changes, which is not in the history, or if the inlet
+    has an oil layer.
     """
     if "radius_y" in settings["duty"] or "layer" in history:
         return None
@@ -179,8 +179,8 @@ def quasi_static(history: Mapping[str, Array], settings: Settings, film: float) 
         )
 
     columns = (history[name] for name in ("load", "speed", "radius_x", "viscosity"))
-    share = film / formula(1.0, 1.0, 1.0, 1.0)
-    result = [share * formula(w, abs(u), r, v) for w, u, r, v in zip(*columns, strict=True)]
+    factor = film / formula(1.0, 1.0, 1.0, 1.0)
+    result = [factor * formula(w, abs(u), r, v) for w, u, r, v in zip(*columns, strict=True)]
     return np.array(result)
 
 
@@ -200,7 +200,7 @@ def duty_history(
     steady
         (n,) central films of steady contacts [m] by formula; None: not drawn.
     solved
-        The same columns of steady contacts that are solved; None: not drawn.
+        The same columns of solved steady contacts; None: not drawn.
     """
     ax = style.axes_or_new(ax, 5.4, 3.0)
     time, nm = history["t_s"] * 1e3, 1e9
@@ -224,12 +224,12 @@ def duty_history(
     return ax
 
 
-def duty_itself(history: Mapping[str, Array], *, ax: Axes | None = None) -> Axes:
-    """Those of load, mean velocity, radius, viscosity, oil layer that change, over the case's."""
+def duty_conditions(history: Mapping[str, Array], *, ax: Axes | None = None) -> Axes:
+    """Draw those of load, velocity, radius, viscosity and layer that change, over the case's."""
     ax = style.axes_or_new(ax, 5.4, 1.6)
     time = history["t_s"] * 1e3
     labels = {"load": "load", "speed": "velocity", "radius_x": "radius", "viscosity": "viscosity"}
-    labels["layer"] = "layer of oil"
+    labels["layer"] = "oil layer"
     for (name, label), line in zip(labels.items(), ("-", "--", "-.", ":", "-"), strict=True):
         if name in history and np.ptp(history[name]) > 0.0:
             ax.plot(time, history[name], line, color=style.GREEN, lw=1.2, label=label)
@@ -239,7 +239,7 @@ def duty_itself(history: Mapping[str, Array], *, ax: Axes | None = None) -> Axes
 
 
 def _box(x: Array, y: Array, outline: Outline) -> tuple[tuple[Any, ...], Array, Array, Mask]:
-    """Index of the box around the contact, its x and y, and which of its nodes are inside."""
+    """Index of the box around the contact, its x and y, and which nodes are in the contact."""
     along, across = outline.reach
     columns, rows = np.abs(x) <= along, np.abs(y) <= across
     x, y = x[columns], y[rows]
@@ -247,7 +247,7 @@ def _box(x: Array, y: Array, outline: Outline) -> tuple[tuple[Any, ...], Array, 
 
 
 def roughness_top(x: Array, y: Array, *fields: Array, outline: Outline = CIRCLE) -> float:
-    """Largest height of several fields inside the Hertz ellipse, for a common scale."""
+    """Maximum height of several fields inside the Hertz ellipse, for a common scale."""
     at, _, _, circle = _box(x, y, outline)
     return max(float(np.abs(field[at][circle]).max()) for field in fields)
 
@@ -273,13 +273,13 @@ def roughness(
     heights
         RR or A_d = H_smooth - H, (nx, ny), in Hertz units.
     top
-        Largest height of the scale, in Hertz units; 0: that of the field.
+        Maximum height of the scale, in Hertz units; 0: that of the field.
     name
         Name of the field in the title, which also gives its rms.
     bar
         Whether it has a colour bar.
     outline
-        Of the dry contact.
+        Outline of the dry contact.
     """
     ax = style.axes_or_new(ax, 4.0, 3.4)
     at, within_x, within_y, circle = _box(x, y, outline)
@@ -327,7 +327,7 @@ def profiles(
     unit
         Factor to the unit of the values, and their label, see `pyehl.plots.style`.
     colour
-        Of the rough line.
+        Colour of the rough line.
     """
     ax = style.axes_or_new(ax, 3.8, 3.2)
     unit_x, label_x = style.axis_unit(scales, "x")

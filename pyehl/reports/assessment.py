@@ -7,7 +7,7 @@ from pyehl.conclusion import conclude
 from pyehl.display import with_error
 from pyehl.types import Values
 
-# A result whose error is a larger share of it is to be taken with care
+# Relative error above which a result is assessed as 'with care'
 WELL_KNOWN = 0.05
 NM = 1e9
 KINDS = {"holds": "pass", "with care": "care", "no result": "fail"}
@@ -27,7 +27,7 @@ WORDS = {
 
 
 class Assessment(NamedTuple):
-    """An assessment of a result: a word, why, and 'pass', 'care' or 'fail'."""
+    """An assessment of a result: a term, its reason, and 'pass', 'care' or 'fail'."""
 
     word: str
     why: str
@@ -35,7 +35,7 @@ class Assessment(NamedTuple):
 
 
 def numbers_of(summary: Values) -> dict[str, str]:
-    """Give names and values of the results; nothing where there is no result."""
+    """Give names and values of the results, empty if there is none."""
     conclusion = conclude(summary)
     if conclusion.confidence == "no result":
         return {}

@@ -19,7 +19,7 @@ PATIENCE = 120.0
 
 
 def browser() -> str:
-    """Give the path of a browser that prints; InputError if none is installed."""
+    """Find an installed browser that prints; InputError if there is none."""
     result = next(filter(None, map(shutil.which, BROWSERS)), None)
     if result is None:
         expected = f"expected: one of {', '.join(BROWSERS)}"
@@ -35,7 +35,7 @@ def write_pdf(page: Path, path: Path) -> Path:
     """
     program = browser()
     with tempfile.TemporaryDirectory(prefix="pyehl-") as profile, new_file(path) as partial:
-        # as root chromium runs without its sandbox or not at all
+        # as root, chromium runs only without its sandbox
         root = ["--no-sandbox"] if os.geteuid() == 0 else []
         words = [*OPTIONS, *root, f"--user-data-dir={profile}"]
         words.append(f"--print-to-pdf={partial.resolve()}")
@@ -51,7 +51,7 @@ def write_pdf(page: Path, path: Path) -> Path:
         if done.returncode != 0 or not partial.is_file():
             message = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
             raise EhlError(f"{path}: {program} did not print: {' '.join(message)}")
-        # a comment after the end, which marks the file as one of pyehl
+        # a comment after the end marks the file as one of pyehl
         with partial.open("ab") as stream:
             stream.write(f"%{mark('report')}\n".encode())
     return path

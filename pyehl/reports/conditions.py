@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The conditions of a case in SI units and in the numbers of Moes and Hertz."""
+"""The conditions of a case in SI units and as dimensionless numbers."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -61,7 +61,7 @@ def surface_words(group: Mapping[str, Any]) -> str:
     if kind == "fractal":
         words = (
             f"fractal, rms {float(group['rms_height']) * 1e9:.4g} nm, Hurst {group['hurst']:g}, "
-            f"seed {group['seed']}, {group['pixels']} pixels a side"
+            f"seed {group['seed']}, {group['pixels']} pixels per side"
         )
     elif kind == "harmonic":
         along, across = group["wavelength_x"], group["wavelength_y"]
@@ -79,7 +79,7 @@ def surface_words(group: Mapping[str, Any]) -> str:
 
 
 def numbers(settings: Settings) -> dict[str, str]:
-    """Give names and values of the numbers without units, and of the dry contact."""
+    """Give names and values of the dimensionless numbers, and of the dry contact."""
     point = scaling_contact(settings)
     line = isinstance(point, LineContact)
     result = {

@@ -31,7 +31,7 @@ from pyehl.results import load, settings_of
 from pyehl.schema import QUANTITIES
 from pyehl.studies.journal import NAME, read_header
 
-# Maximum size of a page [bytes]: its pictures are drawn with fewer dots where necessary
+# Maximum size of a page [bytes]; the dots per inch of its pictures are reduced to keep it
 MAX_BYTES = 2_000_000
 # Keys that name a file
 FILES = ("file", "table")
@@ -64,11 +64,11 @@ def report(
     stress: str | os.PathLike[str] | bool | None = None,
     pdf: bool = False,
 ) -> Path:
-    """Write one HTML page about a result, which needs neither network nor pyehl.
+    """Write a result as one HTML page, which needs neither network nor pyehl.
 
     The page has the conditions (in SI units and in Moes numbers), results with errors and an
     assessment, pictures, tables, warnings, limits that apply, the case file, versions, and how to
-    cite. Folders of files on this machine are left out.
+    cite. Folder names of this machine are removed.
 
     Parameters
     ----------
@@ -76,12 +76,12 @@ def report(
         Result folder of ``run``, ``predict``, ``stribeck``, ``sweep``, ``bearing``, ``gear`` or
         ``response``.
     output
-        File to write; one that `report` wrote is replaced; default ``report.html`` in the folder.
+        File to write, which may replace one of `report`; default ``report.html`` in the folder.
     stress
-        Stress below the surface: a folder that `pyehl.stress` wrote; True: compute it; None: the
-        one in ``stress`` in the folder, if there is one. For a run or prediction.
+        Stress below the surface of a run or prediction: a folder that `pyehl.stress` wrote; True:
+        compute it; None: the subfolder ``stress``, if there is one.
     pdf
-        Print it as PDF, too, beside it, by an installed Chromium or Chrome.
+        Also print it as PDF, with an installed Chromium or Chrome.
 
     Returns
     -------
@@ -91,7 +91,7 @@ def report(
     Raises
     ------
     InputError
-        If it is no result folder, another file is in the way, or no browser is installed.
+        If it is not a result folder, another file is in the way, or no browser is installed.
     FileError
         If a file cannot be read or written.
 
@@ -129,7 +129,7 @@ def report(
 
 
 def _stress(folder: Path, given: str | os.PathLike[str] | bool | None) -> xr.Dataset | None:
-    """Give the stress below a run or prediction, as `report` has it."""
+    """Give the stress below a run or prediction; `given` as `stress` of `report`."""
     case = folder / "case.nml"
     single = case.is_file() and not (folder / NAME).is_file()
     if not single:
@@ -210,10 +210,10 @@ def _files(folder: Path) -> set[str]:
 
 
 def _nameless(value: object, files: set[str]) -> object:
-    """Remove the folders of files on this machine from a text, however they are quoted in it."""
+    """Remove folder names of files on this machine from a text, in any form of quoting."""
     if type(value) is not str:
         return value
-    # the longest first: one may be the beginning of another
+    # the longest first: one name may be a prefix of another
     for name in sorted(files, key=len, reverse=True):
         for form in (name, name.replace("'", "''"), repr(name)[1:-1]):
             value = value.replace(form, Path(name).name)

@@ -5,10 +5,10 @@ from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.line_contact import LineContact, scaling_contact
 from pyehl.types import Settings, Values
 
-# Rise of the temperature [K] above which an oil is thinner than computed: by a third at 0.04 1/K,
-# the usual fall of its viscosity
+# Temperature increase [K] above which a warning is given: at the usual temperature coefficient of
+# 0.04 1/K the viscosity is lower by a third
 HOT = 10.0
-# Beyond it the pressure of smooth contacts was tried on some grids only [Pa]
+# Hertz pressure [Pa] above which smooth contacts were tested on few grids
 HIGH_PRESSURE = 4e9
 NOTES = {
     "H_c_error_note": "The error of H_c is not known",
@@ -23,7 +23,7 @@ NOTES = {
 
 
 def limits(settings: Settings, summary: Values) -> list[str]:
-    """List the limits of the model that apply to a result, a sentence or two each."""
+    """List the limits of the model that apply to a result, in one or two sentences each."""
     point = scaling_contact(settings)
     law, flow = settings["lubricant"]["shear_law"], settings["lubricant"]["flow"]
     rough = rough_groups(settings)
@@ -59,7 +59,7 @@ def limits(settings: Settings, summary: Values) -> list[str]:
         )
     if point.hertz_pressure > HIGH_PRESSURE:
         result.append(
-            "Above a Hertz pressure of 4 GPa few grids were tried; the status has the outcome."
+            "Above a Hertz pressure of 4 GPa few grids were tested; the status reports the outcome."
         )
     if isinstance(point, LineContact):
         result.append(
@@ -82,7 +82,7 @@ def limits(settings: Settings, summary: Values) -> list[str]:
 
 
 def _contact(settings: Settings, summary: Values) -> str:
-    """Describe solid contact: shares of a study are the largest of its cases."""
+    """Describe solid contact; the load share of a study is the maximum over its cases."""
     share = summary.get("contact_load_share")
     boundary = float(settings["lubricant"]["boundary_film"])
     broken = summary.get("status") in ("film breakdown", "negative film")
@@ -111,7 +111,7 @@ def unheated(summary: Values) -> float | None:
 
 
 def warnings(summary: Values) -> list[str]:
-    """Give the statements of a summary on missing and uncertain results."""
+    """List the statements of a summary on missing and uncertain results."""
     result = [
         f"{words}: {summary[name]}."
         for name, words in NOTES.items()
@@ -130,11 +130,12 @@ def warnings(summary: Values) -> list[str]:
         )
     left_out = summary.get("variance_left_out") or 0.0
     if left_out > 0.0:
-        result.append(f"The grid leaves out {100.0 * left_out:.2g} % of the height's variance.")
+        result.append(f"The grid omits {100.0 * left_out:.2g} % of the variance of the heights.")
     share = summary.get("film_below_zero_share") or 0.0
     if share > 0.0:
         result.append(f"The film would have ended on {100.0 * share:.2g} % of the contact.")
-    lost = summary.get("cavitated_share") or 0.0
-    if lost > 0.0:
-        result.append(f"The pressure would be negative on {100.0 * lost:.2g} % of the contact.")
+    cavitated = summary.get("cavitated_share") or 0.0
+    if cavitated > 0.0:
+        share = 100.0 * cavitated
+        result.append(f"The pressure would be negative on {share:.2g} % of the contact.")
     return result

@@ -16,7 +16,7 @@ from pyehl.reports.assessment import Assessment
 from pyehl.reports.page import Block
 
 KINDS = {"bearing": "Bearing", "gear": "Gear pair"}
-# Λ of a full film, and of one that is certainly mixed
+# Λ above which the film is full, and below which it is mixed
 FULL, MIXED = 3.0, 1.0
 
 
@@ -47,9 +47,9 @@ def machine_parts(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Assess
 
 def _assess(table: pd.DataFrame, summary: Mapping[str, Any]) -> Assessment:
     """Assess the films of a machine element."""
-    lost = int((~table["status"].isin(DONE)).sum())
-    if lost:
-        return Assessment("No result", f"{lost} of {len(table)} contacts have none.", "fail")
+    missing = int((~table["status"].isin(DONE)).sum())
+    if missing:
+        return Assessment("No result", f"{missing} of {len(table)} contacts have none.", "fail")
     film = f"The minimum film is {summary['h_min_m'] * 1e9:.4g} nm"
     ratio = summary.get("lambda_ratio_min")
     if ratio is None:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pages: HTML in one file, with its style and its pictures in it.
+"""HTML pages in one file, with embedded style and pictures.
 
-A page is a list of blocks of plain text and numbers; the template ``page.html`` shows and escapes
-them. A page may not load anything: the browser is instructed so, too.
+A page is a list of blocks of plain text and numbers; the template ``page.html`` renders and escapes
+them. A page loads no other resource, and its security policy forbids that.
 """
 
 import base64
@@ -17,7 +17,7 @@ from pyehl.destination import mark, new_file
 Block = dict[str, Any]
 """A part of a page: its ``form``, and what the template needs for it."""
 Part = Block | str
-"""A block, or HTML as it stands."""
+"""A block, or HTML that is not escaped."""
 
 
 def heading(text: str, anchor: str = "") -> Block:
@@ -26,22 +26,22 @@ def heading(text: str, anchor: str = "") -> Block:
 
 
 def paragraph(text: str, kind: str = "") -> Block:
-    """Give a paragraph, of the class 'pass', 'care' or 'fail' or of none."""
+    """Make a paragraph, optionally of the class 'pass', 'care' or 'fail'."""
     return {"form": "paragraph", "text": text, "kind": kind}
 
 
 def verdict(word: str, text: str, kind: str) -> Block:
-    """Give an assessment: a word, and why; 'pass', 'care' or 'fail'."""
+    """Make an assessment: a term, its reason, and 'pass', 'care' or 'fail'."""
     return {"form": "verdict", "word": word, "text": text, "kind": kind}
 
 
 def bullets(texts: Iterable[str]) -> Block:
-    """Give a list."""
+    """Make a list."""
     return {"form": "bullets", "texts": list(texts)}
 
 
 def preformatted(text: str) -> Block:
-    """Give text as it stands, as of a file."""
+    """Make a block of preformatted text."""
     return {"form": "preformatted", "text": text}
 
 
@@ -51,19 +51,19 @@ def folded(title: str, inner: Block) -> Block:
 
 
 def facts(rows: Mapping[str, str]) -> Block:
-    """Give a table of names and values."""
+    """Make a table of names and values."""
     return {"form": "table", "rows": [(row, "") for row in rows.items()]}
 
 
 def table(
     names: Sequence[str], rows: Iterable[Sequence[str]], kinds: Iterable[str] = repeat("")
 ) -> Block:
-    """Give a table with a head; `kinds` is the class of the last cell of each row."""
+    """Make a table with a head; `kinds` is the class of the last cell of each row."""
     return {"form": "table", "names": names, "rows": list(zip(rows, kinds, strict=False))}
 
 
 def picture(png: bytes, alternative: str, caption: str) -> Block:
-    """Put a PNG into the page; `alternative` states in words what it shows."""
+    """Embed a PNG; `alternative` describes it in words."""
     data = base64.b64encode(png).decode()
     return {"form": "picture", "data": data, "alternative": alternative, "caption": caption}
 
@@ -71,8 +71,8 @@ def picture(png: bytes, alternative: str, caption: str) -> Block:
 def render(
     title: str, parts: Iterable[Part], command: str, hide: Callable[[Any], Any] | None = None
 ) -> str:
-    """Give a whole page with a mark of its command; `hide` is applied to its content."""
-    from jinja2 import Environment  # noqa: PLC0415 (it takes long to import)
+    """Render a page with the mark of its command; `hide` is applied to its content."""
+    from jinja2 import Environment  # noqa: PLC0415 (slow to import)
 
     text = resources.files("pyehl").joinpath("reports", "page.html").read_text(encoding="utf-8")
     template = Environment(autoescape=True, finalize=hide).from_string(text)
@@ -85,7 +85,7 @@ def write_page(path: Path, title: str, parts: Iterable[Part], command: str) -> P
 
 
 def write_text(path: Path, text: str) -> Path:
-    """Write a page that is rendered, as `write_page`."""
+    """Write a rendered page, as `write_page`."""
     with new_file(path) as partial:
         partial.write_text(text, encoding="utf-8")
     return path

@@ -15,7 +15,7 @@ from pyehl.reports.page import Block
 from pyehl.subsurface.result import facts, stress
 
 FOLDER = "stress"
-"""Where a report looks for the stress of a result, in its folder."""
+"""Subfolder of a result in which a report looks for its stress."""
 PICTURES = {
     "section": "Principal shear stress on the section y = 0, largest over time",
     "depth": "Largest principal shear stress against depth",
@@ -23,14 +23,14 @@ PICTURES = {
 
 
 def stress_of(folder: Path, case: str, given: str | Path | bool | None) -> xr.Dataset | None:
-    """Give the stress below a result; None where there is none and none is requested.
+    """Give the stress below a result; None if there is none and none was requested.
 
     Parameters
     ----------
     folder
         Result folder.
     case
-        Its case, that of the stress has to be the same.
+        Its case, which the stress must have as well.
     given
         Folder of `pyehl.stress`; True: compute it; None: `FOLDER` in the result folder.
 
@@ -53,14 +53,14 @@ def stress_of(folder: Path, case: str, given: str | Path | bool | None) -> xr.Da
         raise FileError(f"{path}: cannot be read: {error}") from error
     if data.attrs.get("case", "").strip() != case.strip():
         raise InputError(
-            f"{place}: it is the stress of another case than {folder}\nexpected: that of "
-            f"pyehl stress {folder}"
+            f"{place}: stress of another case than {folder}\nexpected: that of pyehl stress "
+            f"{folder}"
         )
     return data
 
 
 def stress_parts(data: xr.Dataset, dpi: int) -> list[Block]:
-    """Give the section of a report."""
+    """Make the section of a report."""
     rows = facts(data)
     notes = [words for name, words in rows if name == "note"]
     parts = [

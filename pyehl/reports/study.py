@@ -29,8 +29,8 @@ STUDY_DPI = 110
 TABLES = {"stribeck": "stribeck.csv"}
 GOOD = ("converged", "predicted", INSIDE, FULL_FILM)
 RESULTS = (*GOOD, OUTSIDE_FORMULA, OUTSIDE, MIXED)
-"""Statuses of rows with a result; of the last ones it is to be taken with care."""
-# Columns shown where they are there, each with the columns that may hold its error
+"""Statuses of rows with a result; the results of the last three are to be taken with care."""
+# Columns of the page, if they exist, each with the columns that may hold its error
 COLUMNS: dict[str, tuple[str, ...]] = {
     "h_c_m": ("h_c_error_m",),
     "h_min_m": ("h_min_error_m",),
@@ -62,9 +62,9 @@ def study_parts(folder: Path) -> tuple[str, Assessment, list[Block]]:
         raise InputError(f"{path}: cannot be read: {error}") from error
     keys = [str(key) for key in header["vary"]]
     title = "Stribeck curve" if run == "stribeck" else f"Sweep ({run})"
-    # keys that move together count once
-    led = {key for group in header["zip"] for key in group[1:]}
-    size = math.prod(len(values) for key, values in header["vary"].items() if key not in led)
+    # keys that vary together count once
+    tied = {key for group in header["zip"] for key in group[1:]}
+    size = math.prod(len(values) for key, values in header["vary"].items() if key not in tied)
     settings = namelist.values(str(header["case"]))
     parts = [page.heading("Conditions")]
     units = {key.name: key.unit for key in KEYS.values()}
@@ -91,15 +91,15 @@ def study_parts(folder: Path) -> tuple[str, Assessment, list[Block]]:
         parts += [page.heading("Warnings"), page.bullets(messages[:MAX_MESSAGES])]
     parts.append(page.heading("Limits that apply"))
     kind = "prediction" if run in ("predict", "stribeck") else "solution"
-    of_all = {"kind": kind, "contact_load_share": _most_contact(rows)}
+    of_all = {"kind": kind, "contact_load_share": _max_load_share(rows)}
     parts.append(page.bullets(limits(settings, of_all)))
     parts.append(page.heading("The first case"))
     parts.append(page.preformatted(namelist.given(str(header["case"]))))
     return title, _assess(rows, size), parts
 
 
-def _most_contact(rows: pd.DataFrame) -> float | None:
-    """Give the largest share of the load at the boundary film; None where none is known."""
+def _max_load_share(rows: pd.DataFrame) -> float | None:
+    """Give the maximum load share of the boundary film; None if none is known."""
     name = "contact_load_share"
     return float(rows[name].max()) if name in rows and rows[name].notna().any() else None
 
@@ -115,9 +115,9 @@ def _assess(rows: pd.DataFrame, size: int) -> Assessment:
     with_care = counts[counts.index.isin(RESULTS) & ~counts.index.isin(GOOD)]
     others = counts[~counts.index.isin(RESULTS)]
     missing = size - len(rows)
-    left = f"; {missing} are not done" if missing > 0 else ""
-    why = f"{known} of {len(rows)} cases have a result{left}."
-    for words, those in (("Of these", with_care), ("The others", others)):
+    unfinished = f"; {missing} are not done" if missing > 0 else ""
+    why = f"{known} of {len(rows)} cases have a result{unfinished}."
+    for words, those in (("With care", with_care), ("Others", others)):
         if len(those):
             why += f" {words}: {', '.join(f'{n} {word!r}' for word, n in those.items())}."
     thin = False
@@ -127,19 +127,19 @@ def _assess(rows: pd.DataFrame, size: int) -> Assessment:
         thin = any(word != "full film" for word in words.index)
     if known == 0:
         return Assessment("No result", why, "fail")
-    shares = _errors(rows)
-    if shares:
-        why += f" Largest errors: {', '.join(f'{n} {100.0 * v:.2g} %' for n, v in shares.items())}."
-    doubtful = any(share > WELL_KNOWN for share in shares.values())
+    errors = _errors(rows)
+    if errors:
+        why += f" Largest errors: {', '.join(f'{n} {100.0 * v:.2g} %' for n, v in errors.items())}."
+    doubtful = any(error > WELL_KNOWN for error in errors.values())
     if doubtful:
         why += f" Above {100.0 * WELL_KNOWN:g} % a finer grid is recommended."
-    if len(others) or len(with_care) or left or doubtful or thin:
+    if len(others) or len(with_care) or unfinished or doubtful or thin:
         return Assessment("Take with care", why, "care")
     return Assessment("Holds", why, "pass")
 
 
 def _errors(rows: pd.DataFrame) -> dict[str, float]:
-    """Give the largest relative error of each result whose errors are in the table."""
+    """Give the maximum relative error of each result with errors in the table."""
     result = {}
     for name in DRAWN:
         for column in COLUMNS[name]:
@@ -171,7 +171,7 @@ def _table(rows: pd.DataFrame, keys: Sequence[str]) -> list[Block]:
 def _pictures(
     folder: Path, rows: pd.DataFrame, keys: Sequence[str], units: Mapping[str, str], title: str
 ) -> list[Block]:
-    """Give the picture of a curve as it was drawn, else the results over the first key."""
+    """Give the picture of a curve, or draw the results over the first key."""
     drawn = folder / "stribeck.png"
     if drawn.is_file():
         words = "Friction against the varied quantity"
@@ -197,7 +197,7 @@ def _pictures(
 
 
 def _lines(rows: pd.DataFrame, keys: Sequence[str], name: str) -> list[Line]:
-    """Give a line for each value of the keys behind the first one; the first few."""
+    """Give a line for each value of the other keys, at most `MAX_LINES`."""
     known = (e for e in COLUMNS[name] if e in rows and rows[e].notna().any())
     error = next(known, "")
     groups = rows.groupby(list(keys[1:]), sort=False) if keys[1:] else [("", rows)]

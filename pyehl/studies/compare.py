@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Results against a table of reference values: deviations, pass or fail.
 
-A table is a CSV file with keys, values and tolerances. The first line that is no comment (``#``)
+A table is a CSV file with keys, values and tolerances. The first line that is not a comment (``#``)
 has the names of the columns. A name ``group.key`` is a key of a case file: a row is compared with
 the results of cases that have these values. Any other name is a result, as in ``summary.json``;
-``NAME_rtol`` and ``NAME_atol`` beside it are its tolerance, rtol times the value plus atol, and
-``note`` is a remark. An empty cell is not compared.
+``NAME_rtol`` and ``NAME_atol`` define its tolerance, rtol times the value plus atol, and ``note``
+is a remark. An empty cell is not compared.
 """
 
 import json
@@ -101,7 +101,7 @@ def _columns(where: str, head: Sequence[str]) -> tuple[list[str], list[str]]:
     for word in keys:
         if word not in known:
             raise InputError(
-                f"{where} '{word}' is no key of a case{did_you_mean(word, known)}\n"
+                f"{where} '{word}' is not a key of a case{did_you_mean(word, known)}\n"
                 "expected: group.key for keys, names of summary.json for values"
             )
     rest = [word for word in head if word not in keys and word != NOTE]
@@ -136,10 +136,10 @@ def _expected(where: str, name: str, result: dict[str, str]) -> Expected:
         )
     tolerance = 0.0
     for column in given:
-        share = _number(where, column, result[column])
-        if share < 0.0:
+        number = _number(where, column, result[column])
+        if number < 0.0:
             raise InputError(f"{where} {column} = {result[column]}\nexpected: not negative")
-        tolerance += share * abs(value) if column.endswith("_rtol") else share
+        tolerance += number * abs(value) if column.endswith("_rtol") else number
     return Expected(value, tolerance)
 
 
@@ -151,7 +151,7 @@ def _number(where: str, name: str, cell: str) -> float:
 
 
 TABLES = ("results.csv", "stribeck.csv")
-# Numbers of keys are the same when they are written with so many digits
+# Relative difference below which numbers of keys are equal
 SAME = 1e-9
 
 
@@ -163,8 +163,8 @@ class Deviation:
     case: str  # keys of the row, as text
     name: str  # of the result
     expected: Expected  # reference value and tolerance
-    value: float | None  # the result; None where there is none
-    why: str = ""  # why there is none; '' where there is one
+    value: float | None  # the result, or None
+    why: str = ""  # why there is no result
 
     @property
     def difference(self) -> float:
@@ -191,7 +191,7 @@ class Deviation:
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """All deviations, and rows of the table that no result belongs to."""
+    """All deviations, and rows of the table that match no result."""
 
     deviations: tuple[Deviation, ...]
     missing: tuple[ReferenceRow, ...]
@@ -209,13 +209,13 @@ class Results:
     name: str  # folder or file
     rows: tuple[Values, ...]  # results by name; keys of the case that were varied are among them
     many: bool  # whether it is a table
-    case: str  # text of the case that all rows are of; '' where it is not known
-    # Texts ``group.key=value`` that hold for all rows, and keys that are varied
+    case: str  # text of the case of all rows; '' if it is not known
+    # Options ``group.key=value`` of all rows, and keys that are varied
     options: tuple[str, ...] = ()
     vary: tuple[str, ...] = ()
 
     def key(self, row: Values, name: str) -> object:
-        """Give the value of a key for a row; None where the case does not have it.
+        """Give the value of a key for a row; None if the case does not have it.
 
         InputError if the key is not known.
         """
@@ -223,8 +223,7 @@ class Results:
             return row[name]
         if not self.case:
             raise InputError(
-                f"{self.name}: there is no column '{name}', and no journal beside it that states "
-                "what the case was"
+                f"{self.name}: there is no column '{name}', and no journal beside it with the case"
             )
         varied = (option(key, row[key]) for key in self.vary)
         group, _, key = name.partition(".")
@@ -277,9 +276,9 @@ def _same(wanted: Key, result: object) -> bool:
 
 
 def compare(results: Results, table: ReferenceTable) -> Comparison:
-    """Compare results with the rows of a table whose keys they have.
+    """Compare results with the rows of a table that have their keys.
 
-    InputError if no row of the table belongs to a result, or no result has a column of the table.
+    InputError if no row of the table matches a result, or no result has a column of the table.
     """
     for name in table.values:
         if not any(name in row for row in results.rows):
@@ -299,7 +298,7 @@ def compare(results: Results, table: ReferenceTable) -> Comparison:
             missing.append(reference)
     if not deviations:
         raise InputError(
-            f"{table.name}: none of its {len(table.rows)} rows belongs to a result of "
+            f"{table.name}: none of its {len(table.rows)} rows matches a result of "
             f"{results.name}; its keys are {', '.join(table.keys) or 'none'}"
         )
     return Comparison(tuple(deviations), tuple(missing))

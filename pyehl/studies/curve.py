@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The table of a Stribeck curve, from the rows of its tasks.
 
-theta_2 is that of Zhang et al. 2019, section 4.2, made for a pattern of one wavelength. For another
-surface it is taken for the pattern cos(2 pi x/wavelength) cos(2 pi y/wavelength) with the same rms
-height (A_i = 2 sigma) and the same mean wavenumber, which is 2 sqrt(2) pi/wavelength; for two rough
-surfaces for one with the power of both.
+theta_2 of Zhang et al. 2019, section 4.2, is defined for a pattern of one wavelength. Any other
+surface is replaced by the pattern cos(2 pi x/wavelength) cos(2 pi y/wavelength) with the same rms
+height (A_i = 2 sigma) and the same mean wavenumber, 2 sqrt(2) pi/wavelength; two rough surfaces are
+replaced by one pattern with the power of both.
 """
 
 import math
@@ -38,7 +38,7 @@ from pyehl.types import Settings, Values
 
 @dataclass(frozen=True, slots=True)
 class Pattern:
-    """The pattern of one wavelength that stands for a surface: rms height and wavelength [m]."""
+    """The pattern of one wavelength that replaces a surface: rms height and wavelength [m]."""
 
     rms_height: float
     wavelength: float
@@ -48,9 +48,9 @@ SMOOTH = Pattern(0.0, math.inf)
 
 
 def pattern(settings: Settings, operating: AnyContact, film: float) -> Pattern:
-    """Give the pattern that theta_2 is taken for, of a resolved case with a rough surface.
+    """Give the pattern for theta_2 of a resolved case with a rough surface.
 
-    `film` is the central film [m], of which the amplitude of harmonic roughness may be a share.
+    `film` is the central film [m], which may scale the amplitude of harmonic roughness.
     """
     if settings["surface"]["kind"] == "harmonic":
         lengths = [float(settings["surface"][f"wavelength_{axis}"]) for axis in "xy"]
@@ -60,33 +60,33 @@ def pattern(settings: Settings, operating: AnyContact, film: float) -> Pattern:
     qx, qy = surfaces.wavenumbers(tile)
     power = np.abs(scipy.fft.rfft2(tile.heights)) ** 2
     power[0, 0] = 0.0
-    # the half of the spectrum that is not there has the same power
+    # the other half of the spectrum has the same power
     last = -1 if tile.shape[1] % 2 == 0 else None
     power[:, 1:last] *= 2.0
     mean = float((np.hypot(qx, qy) * power).sum() / power.sum())
     return Pattern(tile.rms_height, 2.0 * math.sqrt(2.0) * math.pi / mean)
 
 
-def kept_pattern(
-    settings: Settings, operating: AnyContact, film: float, kept: dict[str, Pattern]
+def cached_pattern(
+    settings: Settings, operating: AnyContact, film: float, cache: dict[str, Pattern]
 ) -> Pattern:
-    """Give the pattern of the rough surface of a case; of two that of both together.
+    """Give the pattern of the rough surface of a case, or of both surfaces together.
 
-    A surface that does not depend on the contact is made once.
+    A surface that does not depend on the contact is generated once.
     """
     result = []
     for group in surfaces.rough_groups(settings):
         alone = {**settings, "surface": settings[group]}
         name = str(sorted(settings[group].items(), key=str))
-        if settings[group]["kind"] == "harmonic" or name not in kept:
-            kept[name] = pattern(alone, operating, film)
-        result.append(kept[name])
+        if settings[group]["kind"] == "harmonic" or name not in cache:
+            cache[name] = pattern(alone, operating, film)
+        result.append(cache[name])
     if len(result) == 1:
         return result[0]
     variance = sum(part.rms_height**2 for part in result)
     if not variance > 0.0:
         return SMOOTH
-    # the mean wavenumber is that of the power of both
+    # the mean wavenumber is weighted by the power of both
     number = sum(part.rms_height**2 / part.wavelength for part in result) / variance
     return Pattern(math.sqrt(variance), 1.0 / number)
 
@@ -100,7 +100,7 @@ mu_isothermal temperature_rise_max_K flash_temperature_K p_max_Pa p_max_rough_Pa
 mu_ratio_spread mu_ratio_model_error mu_ratio_ehl mu_ratio_ehl_error moes_m moes_l surfaces
 """
 UNITS = {name: unit_of(name) for name in _NUMBERS.split()}
-"""Columns that are numbers, and their units; behind them come `WORDS`."""
+"""Columns that are numbers, and their units; `WORDS` follow them."""
 WORDS = ("status", "message", "assessment")
 CONTACT: dict[str, Callable[[Iterable[float]], float]] = {
     "contact_load_share": fmean,
@@ -108,18 +108,18 @@ CONTACT: dict[str, Callable[[Iterable[float]], float]] = {
     "contact_area_share": fmean,
     "contact_area_share_error": max,
 }
-"""More columns of a case with a boundary film: means and largest errors over surfaces."""
+"""Further columns of a case with a boundary film: means and maximum errors over surfaces."""
 CONTACT_EHL = {
     "contact_load_share_ehl": "contact_load_share",
     "contact_load_share_ehl_error": "contact_load_share_error",
     "contact_area_share_ehl": "contact_area_share",
     "h_min_rough_ehl_m": "h_min_rough_m",
 }
-"""And results of its full simulation."""
+"""Further columns of its full simulation."""
 EMPIRICAL = ("asperity_load_share_empirical", "mu_empirical")
-"""More columns with the empirical law of a thin film."""
+"""Further columns of the empirical law of a thin film."""
 CONCLUSION = "conclusion"
-"""The last lines of a point: in the rows, and in no file."""
+"""The last lines of a point: in the rows, but not in a file."""
 NOT_DONE: Values = {"status": FAILED, "message": "not done"}
 
 
@@ -134,7 +134,7 @@ def units_of(plan: CurvePlan) -> dict[str, str]:
 def curve_table(plan: CurvePlan, rows: Mapping[int, Values]) -> pd.DataFrame:
     """Give the varied keys and the columns of a curve at all points, in the order of the table.
 
-    Names and units are those of `units_of`, behind them `WORDS` and `CONCLUSION`; None for a number
+    Names and units are those of `units_of`, followed by `WORDS` and `CONCLUSION`; None for a number
     that does not exist.
     """
     patterns: dict[str, Pattern] = {}
@@ -161,7 +161,7 @@ def curves_of(plan: CurvePlan, table: pd.DataFrame, *, absolute: bool = False) -
 def _row(
     plan: CurvePlan, point: CurvePoint, rows: Mapping[int, Values], patterns: dict[str, Pattern]
 ) -> dict[str, Any]:
-    """Give the columns of a point."""
+    """Compute the columns of a point."""
     operating = contact_of(point.settings)
     smooth = rows.get(point.smooth, NOT_DONE)
     result = [rows.get(number, NOT_DONE) for number in point.predictions]
@@ -181,7 +181,7 @@ def _row(
         values |= _film_ratios(point.settings, operating, values, patterns)
     values |= _rough_friction(result, smooth) if result else _smooth_friction(smooth)
     if (law := plan.load_share) is not None and values["lambda_ratio_central"] is not None:
-        # where the film ends it has the friction of the smooth contact
+        # at a film breakdown the film has the friction of the smooth contact
         ratio = values["lambda_ratio_central"]
         film = smooth.get("mu_smooth") if values["mu"] is None else values["mu"]
         mu = None if film is None else law.friction(ratio, film)
@@ -228,7 +228,7 @@ def _conclude(settings: Settings, values: Values) -> Conclusion:
 
 
 def _film(smooth: Values, operating: AnyContact) -> dict[str, Any]:
-    """Film of the smooth contact, extrapolated where it could be, with its error."""
+    """Film of the smooth contact, extrapolated if possible, with its error."""
     if smooth["status"] != "converged":
         return {}
     values: dict[str, Any] = {}
@@ -242,11 +242,11 @@ def _film(smooth: Values, operating: AnyContact) -> dict[str, Any]:
 def _film_ratios(
     settings: Settings, operating: AnyContact, values: Values, patterns: dict[str, Pattern]
 ) -> dict[str, Any]:
-    """Film over roughness, and theta_2 of the pattern that stands for it."""
+    """Film over roughness, and theta_2 of the pattern that replaces it."""
     h_c = values["h_c_m"]
     if h_c is None:
         return {}
-    pattern = kept_pattern(settings, operating, h_c, patterns)
+    pattern = cached_pattern(settings, operating, h_c, patterns)
     if not pattern.rms_height > 0.0:
         return {}
     place = (
@@ -255,7 +255,7 @@ def _film_ratios(
         pattern.wavelength / operating.hertz_radius,
         h_c / (2.0 * pattern.rms_height),
     )
-    # eq. 16 is for circular contacts
+    # eq. 16 applies to circular contacts
     known = operating.moes_l > 0.0 and operating.radius_ratio == 1.0
     return {
         "lambda_ratio": values["h_min_m"] / pattern.rms_height,
@@ -284,14 +284,14 @@ def _smooth_friction(smooth: Values) -> dict[str, Any]:
 
 
 def _rough_friction(result: Sequence[Values], smooth: Values) -> dict[str, Any]:
-    """Mean and spread over the surfaces; no mean where one of them has no ratio.
+    """Mean and spread over the surfaces; no mean if one of them has no ratio.
 
-    The coefficient of the smooth contact is that of its solution, which has the inlet too. In
-    contact both coefficients are as predicted, so that they belong together.
+    The coefficient of the smooth contact is that of its solution, which includes the inlet. With
+    solid contact both coefficients are predicted, for consistency.
     """
     values: dict[str, Any] = {n: smooth.get(n) for n in ("mu_smooth", "mu_smooth_isothermal")}
-    if lost := [row for row in result if row["status"] != "predicted"]:
-        return values | _lost(lost, len(result))
+    if failed := [row for row in result if row["status"] != "predicted"]:
+        return values | _failure(failed, len(result))
     outside = sorted({row["outside_range"] for row in result if row.get("outside_range")})
     if any((row["mu_ratio"] or 0.0) > KNOWN_RATIO for row in result):
         outside.append(f"mu_ratio above {KNOWN_RATIO:g}")
@@ -328,16 +328,16 @@ def _rough_friction(result: Sequence[Values], smooth: Values) -> dict[str, Any]:
     return values | deformed_surfaces(result) | {"status": status, "message": "; ".join(notes)}
 
 
-def _lost(lost: Sequence[Values], count: int) -> dict[str, Any]:
-    """Status and message of a point where some of its surfaces have no ratio."""
-    broken = [row for row in lost if row["status"] == BREAKDOWN]
-    share = f"{len(broken or lost)} of {count} surfaces: " if count > 1 else ""
+def _failure(failed: Sequence[Values], count: int) -> dict[str, Any]:
+    """Status and message of a point with surfaces that have no ratio."""
+    broken = [row for row in failed if row["status"] == BREAKDOWN]
+    number = f"{len(broken or failed)} of {count} surfaces: " if count > 1 else ""
     values = {
         "status": BREAKDOWN if broken else UNSOLVED,
-        "message": f"{share}{why_none((broken or lost)[0])}",
+        "message": f"{number}{why_none((broken or failed)[0])}",
     }
-    if all(row["status"] == BEYOND for row in lost):
-        # of which the film is known
+    if all(row["status"] == BEYOND for row in failed):
+        # the film is known
         values |= {"status": OUTSIDE, "prediction_status": BEYOND}
     return values
 
@@ -348,13 +348,13 @@ def _spread(numbers: Iterable[float]) -> float | None:
 
 
 def _over(result: Sequence[Values], name: str, over_all: Callable[..., Any]) -> Any:  # noqa: ANN401
-    """Apply a function to the values of several surfaces; None where one of them has none."""
+    """Apply a function to the values of several surfaces; None if one of them has none."""
     numbers = [row.get(name) for row in result]
     return None if None in numbers else over_all(numbers)
 
 
 def no_coefficient(settings: Settings) -> str:
-    """State why a friction coefficient of a resolved case has no meaning; '' if it has one."""
+    """State why a friction coefficient of a resolved case is meaningless; '' if it is not."""
     operating, lubricant = contact_of(settings), Lubricant.from_settings(settings)
     film = formula_film(operating, lubricant)
     result = absolute_friction(operating, lubricant, film=film, mu_smooth=1.0, mu_ratio=1.0)

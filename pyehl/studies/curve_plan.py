@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A Stribeck curve: the tasks behind it.
+"""The plan of a Stribeck curve: its points and tasks.
 
 At each point the smooth contact is solved, the friction of one or several surfaces is predicted,
 and at some points the passage of the surface is solved in full. All of these are tasks of one
-study, so that an interrupted curve is resumed.
+study, so that an interrupted curve can be resumed.
 """
 
 import os
@@ -43,14 +43,14 @@ class CurvePoint:
     point: Point  # its place and what is varied
     settings: Settings  # the resolved case
     smooth: int  # number of the task that solves the smooth contact
-    # Numbers of the tasks that predict, one for each surface; none for a smooth one
+    # Numbers of the prediction tasks, one for each surface; empty for a smooth one
     predictions: tuple[int, ...]
-    full: int | None  # number of the task that solves the passage of the surface; None for none
+    full: int | None  # number of the task that solves the passage of the surface
 
 
 @dataclass(frozen=True, slots=True)
 class CurvePlan:
-    """A curve before it is computed."""
+    """A curve to be computed."""
 
     study: Study  # what is varied
     points: tuple[CurvePoint, ...]  # points in the order of the table
@@ -97,11 +97,11 @@ def plan_curve(
 ) -> CurvePlan:
     """Resolve and check all points of a curve. Smooth surfaces have mu_r/mu_s = 1.
 
-    Every value of an axis, keys of `KEYS`, meets those of the others. The passage of the surface
-    is solved in full at `ehl` points, spread over the curve; at each point there are `seeds`
-    surfaces, of the seed of the case and those that follow. `load_share` adds friction by an
-    empirical law for thin films. InputError names a case that is not acceptable, or if there are
-    too many.
+    The points are all combinations of the values of the axes, keys of `KEYS`. The passage of the
+    surface is solved in full at `ehl` points, spread over the curve; each point has `seeds`
+    surfaces, with consecutive seeds from that of the case. `load_share` adds friction by an
+    empirical law for thin films. InputError names a case that is not acceptable, or reports too
+    many.
     """
     study = make(case, axes, options=options, run="predict")
     size = study.size
@@ -156,13 +156,13 @@ def _check_share(settings: Settings) -> None:
         )
     if settings["lubricant"]["shear_law"] == "newtonian":
         raise InputError(
-            "boundary friction: of a Newtonian lubricant there is a ratio of friction alone\n"
+            "boundary friction: a Newtonian lubricant gives a friction ratio only\n"
             "expected: lubricant.shear_law = 'eyring', 'limiting' or 'carreau'"
         )
 
 
 def _check(settings: Settings, seeds: int, ehl: int) -> None:
-    """Refuse cases without a curve."""
+    """Refuse cases that have no curve."""
     groups = surfaces.rough_groups(settings)
     why = unpredictable(settings) if groups else turned(settings)
     if why:
@@ -183,15 +183,15 @@ def _fractal(settings: Settings) -> list[str]:
     return [group for group in groups if settings[group]["kind"] == "fractal"]
 
 
-def _with_seeds(case: Case, settings: Settings, ahead: int) -> Case:
-    """Give a case with the surfaces of seeds so many ahead."""
-    groups = _fractal(settings) if ahead else []
-    seeds = {f"{group}.seed": int(settings[group]["seed"]) + ahead for group in groups}
+def _with_seeds(case: Case, settings: Settings, offset: int) -> Case:
+    """Give a case with `offset` added to the seeds of its surfaces."""
+    groups = _fractal(settings) if offset else []
+    seeds = {f"{group}.seed": int(settings[group]["seed"]) + offset for group in groups}
     return case.with_options(seeds) if seeds else case
 
 
 def _smooth(case: Case, settings: Settings) -> Case:
-    """Give a case without its roughness, on a grid that resolves its inlet where it may touch."""
+    """Give a case without its roughness, on a grid that resolves the inlet if bodies may touch."""
     points = touching_points(settings)
     if points > int(settings["grid"]["points"]) and not settings["grid"]["target_error"]:
         cycles = max(CYCLES, int(settings["solver"]["max_cycles"]))

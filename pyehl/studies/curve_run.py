@@ -48,9 +48,9 @@ COLUMNS = {
 
 
 def absolute_friction(plan: CurvePlan, table: pd.DataFrame) -> bool:
-    """Whether all results are coefficients of friction, where there is sliding.
+    """Whether all results of sliding contacts are coefficients of friction.
 
-    A point whose smooth contact has no solution has a ratio, and is left out.
+    A point whose smooth contact has no solution has only a ratio and does not count.
     """
     sliding = np.array([bool(p.settings["contact"]["slide_to_roll"]) for p in plan.points])
     result = table[sliding & table["status"].isin((FULL_FILM, MIXED, OUTSIDE))]
@@ -78,7 +78,7 @@ def report(plan: CurvePlan, table: pd.DataFrame) -> str:
 
 
 def last_lines(plan: CurvePlan, table: pd.DataFrame) -> str:
-    """Report the point with the minimum film in full, and count the assessments of all."""
+    """Report the point with the minimum film in full, and count the assessments of all points."""
     film = table["h_min_rough_m"].fillna(table["h_min_m"]).astype(float)
     film = film[table["h_min_m"].notna()]
     if film.empty:
@@ -121,7 +121,7 @@ FILES = (CSV, NETCDF, PICTURE)
 def curve_axes(vary: Mapping[str, Any]) -> list[Axis]:
     """Give the axes of a curve, from values by key.
 
-    InputError if there is nothing, a curve does not go over it, or values are no numbers.
+    InputError if there are none, a curve cannot vary a key, or values are not numbers.
     """
     axes, known = axes_of(vary), list(KEYS.values())
     for one in axes:
@@ -143,16 +143,16 @@ def perform(
     *,
     inputs: Iterable[AnyPath] = (),
     force: bool = False,
-    **how: Any,  # noqa: ANN401 (as of `gather`)
+    **options: Any,  # noqa: ANN401 (as in `gather`)
 ) -> tuple[Outcome, pd.DataFrame]:
-    """Run the missing tasks of a curve; returns its table, too.
+    """Run the missing tasks of a curve; returns the outcome and the table.
 
     A folder gets the journal, ``stribeck.csv`` and ``stribeck.nc``; `inputs` are files that must
     not be replaced. InputError if the folder holds another curve or something else, or is in use;
     FileError if it cannot be written.
     """
     if folder is None:
-        outcome = gather(plan.tasks, plan.identity(), **how)
+        outcome = gather(plan.tasks, plan.identity(), **options)
         return outcome, curve_table(plan, outcome.rows)
     folder, inputs = Path(folder), tuple(inputs)
     if {os.path.realpath(folder / name) for name in FILES} & set(map(os.path.realpath, inputs)):
@@ -164,7 +164,7 @@ def perform(
         write_csv(folder / CSV, curve_table(plan, done).drop(columns=CONCLUSION))
 
     place = Destination(folder, "stribeck", (*JOURNAL, *FILES), inputs, force=force)
-    outcome = gather(plan.tasks, plan.identity(), place, write=write, **how)
+    outcome = gather(plan.tasks, plan.identity(), place, write=write, **options)
     result = curve_table(plan, outcome.rows)
     write_netcdf(folder / NETCDF, dataset(plan, result))
     return outcome, result
@@ -205,24 +205,24 @@ def stribeck(
         A case in SI units, or the path of a case file.
     vary
         Values of contact.mean_velocity [m/s], lubricant.viscosity [Pa s], contact.load [N],
-        lubricant.temperature [degC], contact.slide_to_roll [-], as of `sweep`. Every value of one
-        meets those of the others.
+        lubricant.temperature [degC], contact.slide_to_roll [-], as in `sweep`; the points are all
+        combinations.
     *options
-        Values that replace those of the case, as of `Case`.
+        Values that replace those of the case, as for `Case`.
     ehl
         Points at which the passage of the surface is solved in full.
     surfaces
-        Surfaces at each point: of the seed of the case and those that follow.
+        Surfaces at each point, with consecutive seeds from that of the case.
     boundary_friction
         Coefficient of friction of the asperities [-]: adds friction by an empirical law for thin
-        films (``mu_empirical``); None: no number where the film ends.
+        films (``mu_empirical``); None: no friction at a film breakdown.
     load_share
         B and C of that law: exp(-B (h_c/sigma)^C) of the load is on asperities.
     output
-        Folder for journal and table, from which an interrupted curve is resumed; None: nothing is
-        kept on disk.
+        Folder for journal and table, from which an interrupted curve is resumed; None: no files
+        are written.
     force
-        Other files may be in that folder; they stay.
+        Accept other files in that folder; they stay.
     jobs
         Worker processes; 0: as many as processors.
     scheduler
@@ -231,16 +231,15 @@ def stribeck(
     Returns
     -------
     xarray.Dataset
-        Its dimensions are the varied keys, named as by `sweep`; columns as in
-        ``stribeck.csv`` with units, NaN where there is no number; ``status`` at
-        each point.
+        Its dimensions are the varied keys, named as in `sweep`; columns as in ``stribeck.csv``
+        with units, NaN for a missing number; ``status`` of each point.
 
     Raises
     ------
     InputError
         If any case is not acceptable (nothing runs then), or `output` holds something else.
     KeyboardInterrupt
-        If it was interrupted; `output` has all that was finished.
+        If it was interrupted; `output` has all finished tasks.
 
     Examples
     --------

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Lubricants fitted to measured curves: pressure-viscosity coefficient from film over speed.
 
-The film is that of solved smooth contacts, extrapolated from two grids, finer ones where need be.
-It is tabulated over speed and coefficient; logarithms of films are nearly linear in both.
-The result folder is that of a fit of a shear law (:mod:`pyehl.studies.shear_fit`), too.
+The film is that of solved smooth contacts, extrapolated from two grids, on finer ones if needed. It
+is tabulated over speed and coefficient: the logarithm of the film is nearly linear in those of
+both. This module also writes the result folder of a shear law (:mod:`pyehl.studies.shear_fit`).
 """
 
 from __future__ import annotations
@@ -41,21 +41,21 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Settings
 
 KEY = "pressure_viscosity"
-# Keys, and how keys begin, that determine the coefficient; the viscosity of the inlet is resolved
+# Keys, and prefixes of keys, that determine the coefficient; the inlet viscosity stays as resolved
 DETERMINING = KEY, "roelands_z", "name", "kinematic_", "vogel_", "dicke_", "inlet_law"
 LAWS = ("roelands", "barus")
-# Speeds and coefficients of the table, and the largest coefficient over the middle one
+# Numbers of speeds and coefficients of the table, and the maximum coefficient over the middle one
 SPEEDS, COEFFICIENTS, SPAN = 5, 3, 1.5
-# Power of the coefficient in the film, for the first guess (Hamrock & Dowson 1977)
+# Exponent of the coefficient in the film, for the first guess (Hamrock & Dowson 1977)
 POWER = 0.53
-# Tables until one holds the coefficient in its range
+# Maximum number of tables until one contains the coefficient in its range
 TABLES = 6
 
 
 class FilmTable:
     """Central film over speeds [m/s] and pressure-viscosity coefficients [1/Pa].
 
-    Polynomials of Chebyshev in the logarithms through solved contacts at the zeros of the next one.
+    Chebyshev polynomials in the logarithms, which interpolate solved contacts at Chebyshev nodes.
     """
 
     def __init__(self, base: Settings, speeds: tuple[float, float], coefficient: float) -> None:
@@ -80,7 +80,7 @@ class FilmTable:
         return np.exp(chebyshev.chebval2d(u, a, self._terms))
 
     def powers(self, speeds: Array, coefficient: float) -> tuple[float, float]:
-        """Mean powers of speed and of coefficient in the film."""
+        """Mean exponents of speed and of coefficient in the film."""
         u, a = self._places(speeds, coefficient)
         slopes = [chebyshev.chebval2d(u, a, chebyshev.chebder(self._terms, axis=k)) for k in (0, 1)]
         return float(slopes[0].mean() / self._speed[1]), float(slopes[1].mean() / self._span)
@@ -102,7 +102,7 @@ def fit_coefficient(settings: Settings, measured: Measured, points: int) -> Fit:
     EhlError
         If a contact has no solution, or the coefficient leaves the range of its key.
     """
-    # it takes long to import
+    # importing scipy is slow
     from scipy.optimize import least_squares  # noqa: PLC0415
 
     law = settings["lubricant"]["viscosity_law"]
@@ -132,9 +132,9 @@ def fit_coefficient(settings: Settings, measured: Measured, points: int) -> Fit:
             break
         if abs(result.x[0] - table.middle) <= math.log(SPAN):
             break
-        # the table does not reach there: repeat it around the coefficient by the film alone
-        share = float(np.exp(np.mean(np.log(films / table.films(speeds, math.exp(table.middle))))))
-        guess = math.exp(table.middle) * share ** (1.0 / POWER)
+        # beyond the table: repeat it around the coefficient that the mean film suggests
+        ratio = float(np.exp(np.mean(np.log(films / table.films(speeds, math.exp(table.middle))))))
+        guess = math.exp(table.middle) * ratio ** (1.0 / POWER)
     else:
         raise EhlError(f"the fit of {KEY} did not settle; the last value is {guess:.3g} 1/Pa")
     if not low < guess < high:
@@ -159,7 +159,7 @@ def fit_coefficient(settings: Settings, measured: Measured, points: int) -> Fit:
 
 
 def _base(settings: Settings, points: int) -> dict[str, dict[str, object]]:
-    """Give the common values of the contacts, without those that the coefficient replaces."""
+    """Give the common keys of the contacts, without those that the coefficient replaces."""
     groups = smooth_base(settings, points)
     groups["lubricant"] = {
         key: value
@@ -171,7 +171,7 @@ def _base(settings: Settings, points: int) -> dict[str, dict[str, object]]:
 
 
 def _film(base: Settings, speed: float, coefficient: float) -> float:
-    """Central film of a solved smooth contact [m], extrapolated where that is possible."""
+    """Central film of a solved smooth contact [m], extrapolated if possible."""
     groups = {name: dict(group) for name, group in base.items()}
     groups["contact"]["mean_velocity"] = speed
     groups["lubricant"][KEY] = coefficient
@@ -221,34 +221,34 @@ def fit_lubricant(
 ) -> Fit:
     """Fit the shear law of a lubricant to a traction curve, or its coefficient to film thickness.
 
-    Friction and central film are those of smooth contacts that are solved, at each slide-to-roll
-    ratio or over the mean velocity; the parameters are those of least squares, with 95 % confidence
-    intervals of the linearised model.
+    Smooth contacts are solved for the friction at each slide-to-roll ratio, or for the central film
+    over the mean velocity; the parameters are a least-squares fit with 95 % confidence intervals of
+    the linearised model.
 
     Parameters
     ----------
     data
         CSV file with the columns ``contact.slide_to_roll``, ``mu`` and, if known, ``error``; or the
-        file of a rig (`pyehl compare --measured`): its steps under the conditions of the case,
-        repeats averaged, with their scatter as error.
+        file of a rig (`pyehl compare --measured`), of which the steps under the conditions of the
+        case are used; repeats are averaged, with their scatter as error.
     case
         A case, or the path of a case file: the contact in SI units and its lubricant. Roughness
-        does not count.
+        is ignored.
     *options
-        Values that replace those of the case, as of `Case`.
+        Values that replace those of the case, as for `Case`.
     law
-        'eyring', 'limiting' (the limiting coefficient) or 'carreau'; '': that of the case, and
-        'eyring' where the case has none. 'pressure-viscosity': the coefficient from films over
-        speed of a rig, also where the file has films alone.
+        'eyring', 'limiting' (the limiting coefficient) or 'carreau'; '': that of the case, or
+        'eyring' for a Newtonian case. 'pressure-viscosity': the coefficient from films of a rig
+        over speed; default for a file with films only.
     between
-        Least and largest slide-to-roll ratio [-] or mean velocity [m/s] of the points of a rig that
-        are used; None: all.
+        Minimum and maximum slide-to-roll ratio [-] or mean velocity [m/s] of the points of a rig to
+        use; None: all.
     points
         Nodes along X of the contacts.
     output
-        Result folder, as ``pyehl fit-lubricant -o`` writes it; None: nothing is kept on disk.
+        Result folder, as ``pyehl fit-lubricant -o`` writes it; None: no files are written.
     force
-        Other files may be in the folder; they stay.
+        Accept other files in the folder; they stay.
 
     Returns
     -------
@@ -309,7 +309,7 @@ def fit_lubricant(
 def _measured(
     path: str, settings: Settings, law: str, between: tuple[float, float] | None
 ) -> tuple[Measured, list[str]]:
-    """Read the curve that a law is fitted to, and list omitted parts of the file."""
+    """Read the measured curve, and list omitted parts of the file."""
     left_out: list[str] = []
     if law == OF_FILM or is_rig(path):
         quantity, over = (FILM, SPEED) if law == OF_FILM else (FRICTION, SLIP)
@@ -339,7 +339,7 @@ def _has_friction(path: str) -> bool:
 
 def _write(fit: Fit, place: Destination) -> None:
     """Write tables, group, picture and summary, whole or not at all."""
-    # matplotlib takes long to import
+    # importing matplotlib is slow
     from pyehl.plots.lubricant import draw_film_fit, draw_fit  # noqa: PLC0415
     from pyehl.plots.style import save  # noqa: PLC0415
 

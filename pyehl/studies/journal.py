@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The journal of a study: an SQLite database with a row for each finished case.
 
-SQLite keeps it whole through a kill at any instant, and locks it for the process that writes.
+SQLite keeps it consistent if the process is killed, and locks it for the process that writes.
 """
 
 import json
@@ -20,16 +20,16 @@ from pyehl.types import Row
 
 NAME = "journal.sqlite"
 FILES = (NAME, f"{NAME}-wal", f"{NAME}-journal")
-"""Its files: SQLite needs those that a kill has left to complete the last transaction."""
+"""Its files: after a kill, SQLite needs all of them to complete the last transaction."""
 MARKS = {"application_id": 0x7965686C, "user_version": 1}
-"""In the head of the file: a journal of pyehl ('yehl' in ASCII), and its version."""
+"""Entries of the file header: a journal of pyehl ('yehl' in ASCII), and its version."""
 OTHER = "expected: another folder"
 # Differences of two studies that a message lists
 MAX_LISTED = 12
 
 
 def read_header(folder: str | os.PathLike[str]) -> Row | None:
-    """Give the identity of the study in a folder; None where no journal can be read."""
+    """Give the identity of the study in a folder; None if no journal can be read."""
     result = _unlocked(Path(folder) / NAME, "study")
     return None if result is None else dict(json.loads(result))
 
@@ -46,7 +46,7 @@ def _unlocked(path: Path, name: str) -> str | None:
 
 
 def difference(old: Mapping[str, Any], new: Mapping[str, Any]) -> list[str]:
-    """List the differences of two studies as text; empty when there are none."""
+    """List the differences of two studies as text."""
     lines = []
     for name in dict.fromkeys([*old, *new]):
         a, b = old.get(name), new.get(name)
@@ -64,7 +64,7 @@ def difference(old: Mapping[str, Any], new: Mapping[str, Any]) -> list[str]:
 def _keys(text: str) -> dict[str, str]:
     """Give values of a resolved case by ``group.key``, as text, and whether they are defaults.
 
-    The paths of its files are left out.
+    The paths of its files are omitted.
     """
     result, group = {}, ""
     for line in text.splitlines():
@@ -92,11 +92,11 @@ def _json(value: Mapping[str, Any]) -> str:
 class Journal:
     """The journal of one study in one folder; a context manager that holds a lock on it.
 
-    The folder is made when it is not there. Two studies are the same when their values (of JSON)
-    are. `place` has the names that the study may need, by default those of the journal alone.
-    `rows` are the finished cases by their number.
+    A missing folder is made. Two studies are the same if their JSON values are equal. `place` has
+    the names of the files of the study, by default those of the journal alone. `rows` are the
+    finished cases by their number.
 
-    InputError if the folder holds another study (with the difference), or something else, or
+    InputError if the folder holds another study (with the differences) or something else, or if
     another process works on it (with its name); FileError if it cannot be written.
     """
 
@@ -109,7 +109,7 @@ class Journal:
         self.folder = Path(folder)
         self.path = self.folder / NAME
         self.rows: dict[int, Row] = {}
-        # a journal may appear at any instant: its study is checked when it is locked
+        # another process may create a journal at any time: its study is checked once it is locked
         if not self.path.exists():
             place = place or Destination(folder, "study", (NAME,))
             replace(place, kept=FILES).check(resumes=True)
@@ -145,7 +145,7 @@ class Journal:
             who = f"process {os.getpid()} on {socket.gethostname()}"
             run("INSERT OR REPLACE INTO study VALUES ('holder', ?)", (who,))
             run("COMMIT")
-            # one sync for each row; the entries of `study` are in the file itself
+            # one sync for each row; the entries of `study` are now in the main file
             run("PRAGMA journal_mode = WAL")
             run("PRAGMA wal_checkpoint(TRUNCATE)")
             self.rows = self.read()

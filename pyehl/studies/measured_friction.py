@@ -38,7 +38,7 @@ def csv_rows(name: str, text: str) -> tuple[str, list[str], list[tuple[int, dict
 
 
 def number_in(cell: str) -> float:
-    """Give the number in a cell; NaN where there is none that is finite."""
+    """Give the number in a cell; NaN if it is not a finite number."""
     try:
         value = float(cell)
     except ValueError:
@@ -47,17 +47,17 @@ def number_in(cell: str) -> float:
 
 
 LIKE_ERRORS = re.compile(r"err|std|sigma|uncert|dev|\+-|±", re.IGNORECASE)
-"""Names of columns that hold errors."""
+"""Names of columns that probably hold errors."""
 
 
 @dataclass(frozen=True, slots=True)
 class Measured:
     """Measured friction."""
 
-    abscissa: str  # name of the column of the curve that it is given over
+    abscissa: str  # name of the column of the curve that it was measured over
     places: Array  # values of it, (n,)
     ordinate: str  # 'mu' or 'mu_ratio'
-    # Values and their error (n,); zeros where none is given [-]
+    # Values and their errors (n,); zeros if no errors are given [-]
     friction: Array
     error: Array
 
@@ -68,9 +68,9 @@ class Measured:
         return self.places.size - int(np.count_nonzero(inside))
 
     def deviation(self, name: str, curve: Curve) -> Array:
-        """Give a column of the curve over the measured friction less 1 (n,); NaN outside of it.
+        """Give a column of the curve over the measured friction, less 1 (n,); NaN outside of it.
 
-        Interpolated along the curve, between places that have the column.
+        Interpolated along the curve, between places with the column.
         """
         source, target = curve.column(self.abscissa), curve.column(name)
         return _along(self.places, source, target) / self.friction - 1.0
@@ -98,7 +98,7 @@ def _along(at: Array, source: Array, target: Array) -> Array:
 
 
 def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
-    """Read measured friction over a curve that goes over `key`: CSV with a line of names.
+    """Read measured friction for a curve over `key`: CSV with a line of names.
 
     One column is `key`, ``hersey``, ``lambda_ratio`` or ``theta_2``; another ``mu`` or
     ``mu_ratio``; a third, which may be missing, ``error``. InputError with the file and the line,
@@ -117,7 +117,7 @@ def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
             f"{', '.join(known)}; one of mu, mu_ratio; and error, which may be missing{hint}"
         )
     abscissa, ordinate = abscissae[0], ordinates[0]
-    # errors by another name would be left out, and with them the weights of a fit
+    # errors under another name would be ignored, and with them the weights of a fit
     unused = [word for word in head if word not in (abscissa, ordinate, "error")]
     like = [word for word in unused if LIKE_ERRORS.search(word)]
     if like or head.count("error") > 1:

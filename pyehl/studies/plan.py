@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The plan of a study: its cases resolved and checked, their time, and shared work.
 
-Estimates are of one thread of the machine that they were measured on, good to a factor of two or
-so: they let long cases begin first, and show the order of magnitude before a
-study runs. They are corrected by the cases that are finished.
+Estimates of time are for one thread of the machine on which they were measured, within about a
+factor of two: they start long cases first and show the order of magnitude of a study. Finished
+cases correct them.
 """
 
 import json
@@ -37,33 +37,33 @@ from pyehl.types import Row, Settings
 PREDICTION, PREDICTION_PIXEL = 0.1, 1.4e-6
 """Seconds of a prediction, and per pixel of its tile, without the smooth contact under it."""
 FULL = 2.8
-"""Time of one with tracks and bands over that without."""
+"""Time of a prediction with tracks and bands over that of one without."""
 PAIR, THINS, WIDER = 3.5, 2.0, 1.2
-"""How many times as long two rough surfaces take as both alone, and a flow that thins; power of
-b/a, or of a/b, with which it grows."""
+"""Factors of the time: two rough surfaces together over both alone, and a shear-thinning flow;
+exponent of b/a, or of a/b, in the time."""
 CONTACT = 1.0
-"""Seconds of the contact at a boundary film."""
+"""Seconds of the solid contact at a boundary film."""
 HEAVY = (2500.0, 5000.0)
-"""M above which the smooth contact under a prediction has no limit on POINTS, and on twice as many
-nodes a side."""
+"""M above which the smooth contact of a prediction cannot be extrapolated on POINTS nodes, and on
+twice as many per side."""
 START = 0.7
-"""Seconds until a worker process has begun."""
+"""Seconds to start a worker process."""
 FILM = 2e-3
 SMOOTH_LINE, SMOOTH_NODE = 5e-4, 5e-7
 """Seconds of a smooth contact per line and per node of its finest grid."""
 STEP_NODE, MANY_WAVES = 2.7e-7, 1.25
-"""Seconds of a time step of a waviness per node; how much longer surfaces of many waves take."""
+"""Seconds of a time step of a waviness per node; factor for surfaces of many waves."""
 
 
 def smooth_seconds(points: int, aspect: float = 1.0) -> float:
-    """Seconds of a smooth contact on points x points nodes, or so many times as many across."""
+    """Seconds of a smooth contact on points x (aspect points) nodes."""
     return aspect * (SMOOTH_LINE * points + SMOOTH_NODE * points**2)
 
 
 def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool = False) -> float:
-    """Seconds of a resolved case on one thread of the machine that was measured on.
+    """Seconds of a resolved case on one thread of the machine of the measurements.
 
-    `shared`: the smooth contact under a prediction is there already; `full`: with tracks and bands.
+    `shared`: the smooth contact of a prediction is already solved; `full`: with tracks and bands.
     """
     if run == "film":
         return FILM
@@ -79,7 +79,7 @@ def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool
     if not moving:
         return smooth
     mesh = (float(grid["x_outlet"]) - float(grid["x_inlet"])) / (points - 1)
-    # of two surfaces, whose common period may be longer, as of the slower one
+    # two surfaces count as the slower one, although their common period may be longer
     longest = max(_time_to_settle(surface, settings) for surface in moving)
     steps = int(settings["time"]["steps"]) or longest / mesh
     hard = 1.0 if all(surface["kind"] == "harmonic" for surface in moving) else MANY_WAVES
@@ -88,7 +88,7 @@ def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool
 
 
 def _strip(settings: Settings) -> float:
-    """Rows of the strip of a line contact over its nodes along X; one row is next to nothing."""
+    """Rows of the strip of a line contact over its nodes along X; at least one row."""
     grid, b = settings["grid"], scaling_contact(settings).hertz_radius
     widths = [0.0]
     for surface in (settings[group] for group in rough_groups(settings)):
@@ -121,12 +121,12 @@ def _predict_seconds(settings: Settings, aspect: float, *, shared: bool, full: b
 
 
 def _time_to_settle(surface: Mapping[str, Any], settings: Settings) -> float:
-    """Time in a/u until the friction is known: the way into the contact and three periods.
+    """Time in a/u until the friction is known: entry into the contact and three periods.
 
-    Of a single feature its way through it.
+    For a single feature, its passage.
     """
     if surface["kind"] in FEATURES:
-        # from where it matters until it has left
+        # from the inlet until it has left
         width = surface.get("width")
         if width is None:
             width = float(surface["width_m"]) / scaling_contact(settings).hertz_radius
@@ -137,8 +137,8 @@ def _time_to_settle(surface: Mapping[str, Any], settings: Settings) -> float:
         period = 2.0  # no length follows from M alone
     else:
         period = float(surface["length_x"]) / scaling_contact(settings).hertz_radius
-    way = 1.05 - max(-1.5, float(surface["x_start"]))
-    return (way + 3.0 * period) / float(surface["velocity_ratio"])
+    entry = 1.05 - max(-1.5, float(surface["x_start"]))
+    return (entry + 3.0 * period) / float(surface["velocity_ratio"])
 
 
 def duration(seconds: float) -> str:
@@ -157,7 +157,7 @@ class Remaining:
         self._tasks = {task.number: task for task in tasks}
         self._workers = workers
         self._began = time.monotonic()
-        # Seconds by kind of task: estimates of those left and of those finished, and measured
+        # Seconds by kind of task: estimated for remaining and for finished ones, and measured
         self._left: defaultdict[str, float] = defaultdict(float)
         self._estimated, self._measured = self._left.copy(), self._left.copy()
         for task in tasks:
@@ -171,7 +171,7 @@ class Remaining:
 
     @property
     def estimate(self) -> float:
-        """Seconds of the tasks left as they were estimated."""
+        """Estimated seconds of the remaining tasks."""
         return sum(self._left.values())
 
     def remove(self, rows: Sequence[tuple[int, Row]]) -> None:
@@ -185,7 +185,7 @@ class Remaining:
 
     @property
     def seconds(self) -> float:
-        """Wall time left [s]: each kind of task by how long the finished ones of it took."""
+        """Remaining wall time [s]: each kind of task is scaled by its finished ones."""
         done, estimated = sum(self._measured.values()), sum(self._estimated.values())
         mean = done / estimated if estimated else 1.0
         left = sum(
@@ -200,7 +200,7 @@ class Remaining:
 def wall_seconds(seconds: Sequence[float], jobs: int, repeat: float = 1.0) -> float:
     """Wall time [s] of tasks in `jobs` worker processes under the present load of the machine.
 
-    Each of the `seconds` stands for `repeat` tasks.
+    Each of the `seconds` represents `repeat` tasks.
     """
     workers = min(jobs, len(seconds))
     slower = max(1.0, (os.getloadavg()[0] + workers) / processors())
@@ -209,15 +209,15 @@ def wall_seconds(seconds: Sequence[float], jobs: int, repeat: float = 1.0) -> fl
 
 THREADS = "solver.threads"
 MAX_CHECKED, PATIENCE = 5000, 5.0
-"""Maximum number of cases that a plan without a run checks, and seconds that it takes for them."""
+"""Maximum number of cases, and maximum seconds, of the checks of a plan without a run."""
 CASE_BYTES = 12_000
-"""Memory of a case that waits, most of it its resolved text."""
-# Groups that may make a readable case one that cannot be solved
+"""Memory of a waiting case, mostly its resolved text."""
+# Groups that may make a valid case unsolvable
 GROUPS = ("grid", *surfaces.GROUPS, "time", "solver")
 
 
 class TaskList:
-    """Tasks with the time that each may take, as they are added."""
+    """A growing list of tasks with their estimated times."""
 
     def __init__(self) -> None:
         self.tasks: list[Task] = []
@@ -226,7 +226,7 @@ class TaskList:
     def add(
         self, number: int, case: Case, run: str, *, folder: str = "", tracks: bool = False
     ) -> int:
-        """Add a task on a checked case; gives its number. With a folder a prediction is whole."""
+        """Add a task on a checked case; returns its number. A folder needs a full prediction."""
         settings = case.resolve()
         shares = smooth_case(settings) if run == "predict" else ""
         shared = shares in self._contacts
@@ -241,7 +241,7 @@ class Plan:
     """Cases of a study, checked, with estimates of their run."""
 
     study: Study
-    # Its cases in the order of the table; of a large study that is not to run, some of them
+    # Its cases in the order of the table; only some of a large study that is not run
     points: tuple[Point, ...]
     tasks: tuple[Task, ...]
     files: tuple[str, ...]  # height maps and tables that they read
@@ -288,7 +288,7 @@ def check_memory(cases: int) -> None:
     need, have = CASE_BYTES * cases, library.free_bytes()
     if need > have:
         raise InputError(
-            f"{cases} cases take {need / 2**30:.2g} GiB of memory to wait in, "
+            f"{cases} waiting cases take {need / 2**30:.2g} GiB of memory, "
             f"{have / 2**30:.2g} GiB are available; take fewer values"
         )
 
@@ -296,10 +296,9 @@ def check_memory(cases: int) -> None:
 def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: bool = False) -> Plan:
     """Resolve and check all cases of a study.
 
-    `keep` is the folder for a result folder of each case. `brief`: a plan that is not to run has,
-    of a study with more than `MAX_CHECKED` cases, as many as `PATIENCE` allows. InputError if a
-    case is not acceptable, with the case and what is wrong with it, or if there are more than fit
-    into memory.
+    `keep` is the folder for a result folder of each case. `brief`: the plan is not run, and of more
+    than `MAX_CHECKED` cases it has only as many as can be checked in `PATIENCE`. InputError names a
+    case that is not acceptable and the reason, or reports more cases than fit into memory.
     """
     brief = brief and study.size > MAX_CHECKED
     if not brief:
@@ -327,7 +326,7 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
 
 
 def _check(study: Study, case: Case, settings: Settings, checked: set[str]) -> None:
-    """Refuse a case that can be read but not done, as its run would do."""
+    """Refuse a valid case that its run would refuse."""
     groups = json.dumps([settings.get(group) for group in GROUPS], default=str)
     known = groups in checked
     checked.add(groups)

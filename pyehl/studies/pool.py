@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Worker processes, of this machine or of a dask scheduler: tasks to rows, as they are finished.
+"""Worker processes, of this machine or of a dask scheduler, which turn tasks into rows.
 
-On this machine each worker is an executor of loky of its own: a worker that crashes or is killed
-loses its own tasks alone. A task whose worker of dask is lost goes to another one: dask
-does that, and abandons a task when several workers were lost with it
-(``distributed.scheduler.allowed-failures``).
+On this machine each worker is its own loky executor: a worker that crashes or is killed takes only
+its own tasks with it. dask gives a task whose worker died to another one, and abandons a task after
+several such deaths (``distributed.scheduler.allowed-failures``).
 """
 
 from __future__ import annotations
@@ -29,19 +28,19 @@ from pyehl.types import Row
 if TYPE_CHECKING:
     from loky import ProcessPoolExecutor
 
-# A worker gets so many tasks at once, as long as they take less than this together [s]
+# Maximum number of tasks that a worker gets at once, and their maximum total time [s]
 MAX_TASKS, SHORT = 64, 0.1
-# Number of workers that a task may end before it has failed
+# Number of workers that may die with a task before it has failed
 TRIES = 2
 ENVIRONMENT = {
     "OMP_NUM_THREADS": "1",
     "OPENBLAS_NUM_THREADS": "1",
     "MKL_NUM_THREADS": "1",
-    # a module in the current folder is not taken for one of a library
+    # no imports from the current folder
     "PYTHONSAFEPATH": "1",
 }
-# Seconds to wait for the scheduler; seconds between looks for the parent of a worker; seconds that
-# a worker waits for the next study
+# Seconds to wait for the scheduler; seconds between checks that the parent of a worker is alive;
+# seconds that a worker waits for the next study
 PATIENCE, LOOK, KEPT = 20, 0.2, 10
 
 
@@ -58,7 +57,7 @@ def check_jobs(jobs: int) -> None:
 
 
 class Queue:
-    """Tasks that wait, the longest first; those that share something stay with one worker."""
+    """Waiting tasks, the longest first; those that share work stay with one worker."""
 
     def __init__(self, tasks: Sequence[Task]) -> None:
         self._groups: dict[str, deque[Task]] = {}
@@ -68,13 +67,13 @@ class Queue:
         self._again: deque[Task] = deque()
 
     def take(self, last: str) -> list[Task]:
-        """Give a task, or some short ones, to a worker whose last one was of a group."""
+        """Give a task, or some short ones, to a worker whose last task was in the group `last`."""
         if self._again:
             return [self._again.popleft()]
         result: list[Task] = []
         while self._groups and len(result) < MAX_TASKS and sum(t.seconds for t in result) < SHORT:
             if last not in self._groups:
-                # a new group, or a part of the longest one
+                # a new group, or part of the longest one
                 last = (
                     self._free.popleft()
                     if self._free
@@ -86,7 +85,7 @@ class Queue:
         return result
 
     def put_back(self, tasks: Iterable[Task]) -> None:
-        """Return tasks that their worker has not done; from now on each is given alone."""
+        """Return unfinished tasks; from now on each is given alone."""
         self._again += tasks
 
 
@@ -96,9 +95,9 @@ def group_of(task: Task) -> str:
 
 
 def _begin(parent: int) -> None:
-    """Make a process a worker: Ctrl-C is for its parent alone, without which it ends at once."""
+    """Make a process a worker: it ignores Ctrl-C, and ends when its parent has died."""
     os.setsid()
-    # what a library prints goes to standard error
+    # prints of libraries go to standard error
     os.dup2(2, 1)
     threading.Thread(target=_end_without, args=(parent,), daemon=True).start()
     # end at once: the parent waits for an idle worker, which has nothing to clean up
@@ -112,12 +111,12 @@ def _end_without(parent: int) -> None:
 
 
 def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
-    """Do tasks in `jobs` worker processes; yields rows as they come.
+    """Run tasks in `jobs` worker processes; yields rows as they are finished.
 
-    Workers of a study that ended a short time ago are taken: their start takes longer than a task.
-    A task whose worker dies is given to another one once more; then its row reports it. When the
-    caller stops early, or an exception is raised in it, the workers end at once. InternalError if
-    no worker comes as far as its first row.
+    Workers of a study that has just ended are reused: starting one takes longer than a task. A task
+    whose worker dies is given to another one once; after a second death its row reports it. If the
+    caller stops early or raises an exception, the workers end at once. InternalError if no worker
+    reaches its first row.
     """
     queue = Queue(tasks)
     died: Counter[int] = Counter()
@@ -151,11 +150,11 @@ def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
                         raise InternalError("the worker processes end before they begin") from error
                     executors[k].shutdown(kill_workers=True)
                     executors[k] = _executor()
-                    # each of several tasks is then given alone, which shows the faulty one
+                    # several tasks are then given one by one, which finds the faulty one
                     died.update(t.number for t in some if len(some) == 1)
-                    lost = [t for t in some if died[t.number] >= TRIES]
-                    finished += [(t.number, _failed(error)) for t in lost]
-                    queue.put_back(t for t in some if t not in lost)
+                    failed = [t for t in some if died[t.number] >= TRIES]
+                    finished += [(t.number, _failed(error)) for t in failed]
+                    queue.put_back(t for t in some if t not in failed)
                 else:
                     finished += [(t.number, _failed(error)) for t in some]
             if finished:
@@ -166,22 +165,22 @@ def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
 
 
 def _executor() -> ProcessPoolExecutor:
-    from loky import ProcessPoolExecutor  # noqa: PLC0415 (it takes long to import)
+    from loky import ProcessPoolExecutor  # noqa: PLC0415 (slow to import)
 
     return ProcessPoolExecutor(1, initializer=_begin, initargs=(os.getpid(),), env=ENVIRONMENT)
 
 
 # executors without a task
 _spares: deque[ProcessPoolExecutor] = deque()
-# a process that is forked has workers of its own
+# a forked process has its own workers
 os.register_at_fork(after_in_child=_spares.clear)
 
 
 def _keep(executor: ProcessPoolExecutor) -> None:
-    """Keep an executor for the next study, for a time.
+    """Keep an executor for the next study, for `KEPT` seconds.
 
-    Its own time limit is not used: it does not notice the death of a worker that it starts after
-    the end of the first one.
+    The timeout of loky is not used: with it, loky does not notice the death of a worker that
+    replaced one.
     """
 
     def end() -> None:
@@ -211,17 +210,17 @@ def _spare() -> ProcessPoolExecutor:
 
 def _submit(executor: ProcessPoolExecutor, tasks: list[Task]) -> Future[list[Row]]:
     try:
-        # a spare one began in the folder of an earlier study
+        # a spare executor is in the folder of an earlier study
         future: Future[list[Row]] = executor.submit(execute_all, tasks, os.getcwd())
     except BrokenExecutor as error:
-        # it died without a task
+        # its worker died without a task
         future = Future()
         future.set_exception(error)
     return future
 
 
 def _failed(error: BaseException) -> Row:
-    """Give the row of a task that has none."""
+    """Make the row of a task that failed."""
     message = f"{type(error).__name__}: {error}"
     if isinstance(error, BrokenExecutor):
         match = re.search(r"exit codes of the workers are \{(.*)\}", message)
@@ -231,9 +230,9 @@ def _failed(error: BaseException) -> Row:
 
 
 def cluster_rows(tasks: Sequence[Task], address: str) -> Generator[list[tuple[int, Row]]]:
-    """Do tasks with the workers of a scheduler; yields what has been finished, some at a time.
+    """Run tasks with the workers of a scheduler; yields rows as they are finished.
 
-    When the caller stops early, tasks that have not begun are cancelled. InputError if
+    If the caller stops early, tasks that have not begun are cancelled. InputError if
     dask.distributed is not installed; EhlError if the scheduler does not answer.
     """
     try:
@@ -245,7 +244,7 @@ def cluster_rows(tasks: Sequence[Task], address: str) -> Generator[list[tuple[in
     except (OSError, ValueError) as error:
         raise EhlError(f"the dask scheduler at '{address}' does not answer: {error}") from error
     study = uuid.uuid4().hex
-    # dask begins with what comes first
+    # dask starts the first tasks first
     ordered = sorted(tasks, key=lambda task: (-task.seconds, task.shares, task.number))
     with client:
         keys = [f"pyehl-{study}-{task.number}" for task in ordered]
@@ -260,7 +259,7 @@ def cluster_rows(tasks: Sequence[Task], address: str) -> Generator[list[tuple[in
 
 
 def _row(future: Any, result: Any) -> Row:  # noqa: ANN401 (types of an optional extra)
-    """Give the row of a future of dask, also of a task that dask abandoned."""
+    """Give the row of a dask future, also of an abandoned task."""
     if future.status == "finished":
         row: Row = result
         return row

@@ -32,8 +32,8 @@ def quasi_static(
 ) -> xr.Dataset:
     """Solve the steady, smooth contact at instants of a duty.
 
-    Each has the load, speeds, radii, viscosity and layer of oil of an instant, on the grid of the
-    duty: the same nodes in metres, P = 0 at the border. A reversed motion is solved as its mirror
+    Each has the load, speeds, radii, viscosity and oil layer of an instant, on the grid of the
+    duty: the same nodes in metres, P = 0 at the border. Reversed motion is solved as its mirror
     image.
 
     Parameters
@@ -41,8 +41,8 @@ def quasi_static(
     results
         What `solve` and `load` give for a case with a duty, or its result folder.
     instants
-        How many, evenly over the duty (the last period), or times [s]; each is that of the nearest
-        time step.
+        Number of instants, evenly spaced over the duty (the last period), or times [s]; the nearest
+        time steps are used.
 
     Returns
     -------
@@ -55,8 +55,8 @@ def quasi_static(
     Raises
     ------
     InputError
-        If the results are not those of a duty, or `instants` are none of it; if the viscosity
-        changes and the inlet is heated by shear.
+        If the results are not those of a duty, or `instants` are outside of it; if the viscosity
+        changes in an inlet with shear heating.
 
     Examples
     --------
@@ -77,7 +77,7 @@ def quasi_static(
     if settings["lubricant"].get("thermal_reduction") and "viscosity" in settings["duty"]:
         raise InputError(
             "duty.viscosity with lubricant.thermal_reduction: the steady contact would have "
-            "another heat in its inlet\nexpected: one of the two"
+            "different inlet heating\nexpected: one of the two"
         )
     rows = _rows(data, instants)
     result = [_steady(data, settings, row) for row in rows]
@@ -126,13 +126,13 @@ def _steady(data: xr.Dataset, settings: Settings, row: int) -> dict[str, float]:
 
 
 def _case(settings: Settings, now: Mapping[str, float]) -> Case:
-    """Make the case of the steady contact that has these values, over those of the case."""
+    """Make the case of the steady contact with values `now`, relative to those of the case."""
     grid = dict(settings["grid"])
     ends = {key: grid.pop(key) for key in ENDS if key in grid}
     contact = {k: v for k, v in settings["contact"].items() if k not in RADII}
     size = "load_per_length" if contact.get("shape") == "line" else "load"
     contact[size] *= now["load"]
-    # the film is that of speed times viscosity
+    # the film depends on speed times viscosity
     contact["mean_velocity"] *= abs(now["speed"]) * now["viscosity"]
     contact["slide_to_roll"] = now["slide"] / now["speed"]
     contact |= _radii(settings["contact"], now)
@@ -147,7 +147,7 @@ def _case(settings: Settings, now: Mapping[str, float]) -> Case:
 
 
 def _radii(contact: Mapping[str, Any], now: Mapping[str, float]) -> dict[str, float]:
-    """Radii by key: a round contact is an ellipse where that along the motion alone changes."""
+    """Radii by key: a round contact becomes elliptical if only one radius changes."""
     if "shape" in contact and contact["shape"] in ("line", "roller"):
         return {"radius": contact["radius"] * now["radius_x"]}
     along, across = (contact.get(key, contact.get("radius")) for key in ("radius_x", "radius_y"))

@@ -18,14 +18,14 @@ from pyehl.studies.compare import Results
 from pyehl.studies.measured_friction import Measured
 from pyehl.types import Array, Settings
 
-# How far a condition of a rig may be from that of the case: relative, or as a difference
+# Tolerances of the conditions of a rig: relative, and absolute
 RELATIVE = {SPEED: 0.03, LOAD: 0.05}
 ABSOLUTE = {TEMPERATURE: 2.0, SLIP: 0.01}
 
 
 @dataclass(frozen=True, slots=True)
 class Compared:
-    """A measured quantity with the deviations of a study, and steps that are left out."""
+    """A measured quantity with the deviations of a study, and the omitted steps."""
 
     curve: Curve
     parts: list[Deviation]
@@ -33,12 +33,12 @@ class Compared:
 
 
 def compared(results: Results, rig: RigFile) -> list[Compared]:
-    """Compare a study with the steps of a rig file that are under its conditions.
+    """Compare a study with the steps of a rig file under the same conditions.
 
     Raises
     ------
     InputError
-        If the study does not go over the condition that the rig varies, if no step has its other
+        If the study does not vary the condition that the rig varies, if no step has its other
         conditions, or if they have no quantity or range in common.
     """
     over, used, left_out = steps_of(
@@ -61,7 +61,7 @@ def compared(results: Results, rig: RigFile) -> list[Compared]:
 
 
 def _column(results: Results, name: str) -> Array:
-    """Give a result or key over all rows; NaN where there is none."""
+    """Give a result or key over all rows; NaN for a missing value."""
     values = [row.get(name) for row in results.rows]
     return np.array([math.nan if v is None else float(v) for v in values])
 
@@ -69,7 +69,7 @@ def _column(results: Results, name: str) -> Array:
 def steps_of(
     rig: RigFile, vary: Sequence[str], here: Callable[[str], object]
 ) -> tuple[Quantity, list[Step], list[str]]:
-    """Give the condition that a rig varied, the steps under the conditions of a case, and others.
+    """Find the condition that a rig varied, and the steps under the other conditions of a case.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def steps_of(
     Returns
     -------
     tuple
-        Condition, steps, and of each step that is left out its title and the reason.
+        Condition, steps, and title and reason of each omitted step.
 
     Raises
     ------
@@ -109,7 +109,7 @@ def steps_of(
 
 
 def rig_curves(path: str, settings: Settings, vary: Sequence[str]) -> dict[Quantity, Measured]:
-    """Give what a rig measured under the conditions of a case; what is not above 0 is left out.
+    """Give the measurements of a rig under the conditions of a case; only values above 0.
 
     Raises
     ------
@@ -127,9 +127,7 @@ def measured_curve(
     over: Quantity,
     between: tuple[float, float] = (-math.inf, math.inf),
 ) -> tuple[Measured, list[str]]:
-    """Give what a rig measured of a quantity over a condition, and the steps that are left out.
-
-    Of values of the condition `between` two alone.
+    """Give a measured quantity over a condition `between` two values, and the omitted steps.
 
     Raises
     ------
@@ -149,8 +147,8 @@ def measured_curve(
     if not curve.places.size:
         raise InputError(f"{path}: error: no point between {between[0]:g} and {between[1]:g}")
     measured = _above_0(curve)
-    if lost := curve.places.size - measured.places.size:
-        left_out.append(f"{lost} points that are not above 0")
+    if omitted := curve.places.size - measured.places.size:
+        left_out.append(f"{omitted} points that are not above 0")
     return measured, left_out
 
 
@@ -183,7 +181,7 @@ def _has(steps: list[Step], quantity: Quantity) -> bool:
 
 
 def _difference(step: Step, here: Callable[[str], object], over: Quantity) -> str:
-    """Say which condition of a step is not that of the case; '' for none."""
+    """Describe the first condition of a step that differs from the case; '' for none."""
     for condition in CONDITIONS:
         if condition is over or condition.name not in step.columns:
             continue
@@ -199,7 +197,7 @@ def _difference(step: Step, here: Callable[[str], object], over: Quantity) -> st
 
 
 def lines(result: list[Compared]) -> list[str]:
-    """Give what ``pyehl compare --measured`` prints."""
+    """Give the lines that ``pyehl compare --measured`` prints."""
     lines = []
     for one in result:
         curve = one.curve

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Parameters of a shear law from a measured traction curve.
 
-The friction is that of the package: smooth contacts with the law, solved at each slide-to-roll
-ratio. The search begins where the law over film and pressure of the Newtonian contact fits best.
+Smooth contacts with the law are solved at each slide-to-roll ratio. The search starts from the best
+fit of the law over film and pressure of the Newtonian contact.
 """
 
 from __future__ import annotations
@@ -42,11 +42,11 @@ def lubricants(
     Parameters
     ----------
     *names
-        Some of them; none: all.
+        Names of oils; none: all.
     temperature
-        Of the pictures, and two more above it [degC].
+        Temperature of the pictures, with two more above it [degC].
     output
-        Folder for the pictures, which is made where it is not there; None: nothing is drawn.
+        Folder for the pictures, made if it is missing; None: nothing is drawn.
 
     Returns
     -------
@@ -57,8 +57,8 @@ def lubricants(
     Raises
     ------
     InputError
-        For a name that is not there, with the nearest one; a temperature out of range; a file of
-        others with the name of a picture.
+        For an unknown name, with the nearest one; a temperature out of range; another file with the
+        name of a picture.
     FileError
         If a picture cannot be written.
 
@@ -79,7 +79,7 @@ def lubricants(
     check_name(folder)
     if folder.exists() and not folder.is_dir():
         raise InputError(f"{folder}: error: this is not a folder\nexpected: a folder for pictures")
-    # matplotlib takes long to import
+    # importing matplotlib is slow
     from pyehl.plots.folder import made  # noqa: PLC0415
     from pyehl.plots.lubricant import draw_oil  # noqa: PLC0415
     from pyehl.plots.style import save  # noqa: PLC0415
@@ -100,14 +100,14 @@ PARAMETERS = {
     "limiting": ("limiting_coefficient",),
     "carreau": ("carreau_stress", "carreau_exponent"),
 }
-# Where the search begins
+# Start of the search
 START = {
     "eyring_stress": 5e6,
     "limiting_coefficient": 0.06,
     "carreau_stress": 5e6,
     "carreau_exponent": 0.5,
 }
-# Difference of parameters (of the exponent, of logarithms of the others) for the slopes, whose
+# Step of parameters (of the exponent, of logarithms of the others) for the derivatives, whose
 # effect is far above the algebraic error of the contacts; change at which the search ends
 STEP, TOLERANCE = 0.03, 1e-4
 CONFIDENCE = 0.95
@@ -126,14 +126,14 @@ class Parameter:
 
 @dataclass(frozen=True, slots=True)
 class Fit:
-    """Parameters of a lubricant and the measured curve that they were fitted to."""
+    """Parameters of a lubricant and the measured curve of the fit."""
 
-    law: str  # the shear law, or '' of the pressure-viscosity coefficient
+    law: str  # the shear law, or '' for the pressure-viscosity coefficient
     parameters: tuple[Parameter, ...]
-    places: Array  # (n,), ascending, of the key `over`
-    measured: Array  # of the result `quantity` (n,)
-    error: Array  # of it (n,), zeros where none is given
-    fitted: Array  # the same by the package (n,)
+    places: Array  # values of the key `over`, ascending (n,)
+    measured: Array  # measured values of `quantity` (n,)
+    error: Array  # their errors, zeros if none are given (n,)
+    fitted: Array  # fitted values of `quantity` (n,)
     points: int  # nodes along X of the contacts
     over: str = "contact.slide_to_roll"
     quantity: str = "mu"
@@ -146,7 +146,7 @@ class Fit:
 
     @property
     def summary(self) -> dict[str, Any]:
-        """What ``summary.json`` holds."""
+        """Content of ``summary.json``."""
         return {
             "kind": "fit",
             "schema_version": schema.VERSION,
@@ -168,7 +168,7 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
 
     InputError for too few points; EhlError if a contact has no solution, or no fit is found.
     """
-    # it takes long to import
+    # importing scipy is slow
     from scipy.optimize import least_squares  # noqa: PLC0415
 
     keys = PARAMETERS[law]
@@ -223,9 +223,9 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
 
 
 def weights(error: Array) -> Array:
-    """Weights of measured points by their errors (n,); InputError for errors of which one is none.
+    """Weights of measured points by their errors (n,); InputError if only some errors are 0.
 
-    Zeros alone stand for errors that are not known.
+    If all are 0, the errors are not known.
     """
     if not error.any():
         return np.ones_like(error)
@@ -238,12 +238,12 @@ def weights(error: Array) -> Array:
 
 
 def _limits(key: str) -> tuple[float, float]:
-    """Give the ends of what a key allows besides 0."""
+    """Give the ends of the interval that a key allows besides 0."""
     return KEYS[f"lubricant.{key}"].interval[:2]
 
 
 def _to_search(keys: tuple[str, ...], values: Array) -> Array:
-    """Give parameters as they are searched for: all but the exponent in logarithms."""
+    """Transform parameters for the search: logarithms of all but the exponent."""
     linear = np.array(keys) == "carreau_exponent"
     return np.where(linear, values, np.log(values))
 
@@ -256,7 +256,7 @@ def _to_values(keys: tuple[str, ...], result: Array) -> Array:
 def intervals(
     keys: tuple[str, ...], jacobian: Array, residuals: Array, result: Array
 ) -> list[tuple[float, float]]:
-    """Find the ends of the confidence intervals; infinite where the data determine nothing."""
+    """Compute the ends of the confidence intervals; infinite if the data determine nothing."""
     from scipy.stats import t  # noqa: PLC0415
 
     free = residuals.size - result.size
@@ -296,7 +296,7 @@ class _Model:
 
 
 def smooth_base(settings: Settings, points: int) -> dict[str, dict[str, Any]]:
-    """Give what the contacts share: groups of a case without sliding and shear law."""
+    """Give the common keys of the contacts: groups of a case without sliding and shear law."""
     refuse_duty(settings)
     groups = without_surface(settings)
     for key in ("slide_to_roll", "rough_surface"):

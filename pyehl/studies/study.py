@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A study: a case, what is varied in it, and what each case is for."""
+"""A study: a case, its varied keys, and the run of each case."""
 
 import hashlib
 import itertools
@@ -39,7 +39,7 @@ class Axis:
 
 
 def parse_axis(text: str) -> Axis:
-    """Read ``group.key=VALUES``, as behind ``--vary``.
+    """Read ``group.key=VALUES``, the argument of ``--vary``.
 
     Raises
     ------
@@ -62,13 +62,13 @@ def parse_axis(text: str) -> Axis:
 
 
 def axes_of(vary: Mapping[str, Any]) -> list[Axis]:
-    """Give the axes of values by ``group.key``, or by group and key; InputError as `axis`."""
+    """Make axes from values by ``group.key``, or by group and key; InputError as `axis`."""
     check_kind(vary, Mapping, "vary", "values by key, as {'contact.load': [100.0, 200.0]}")
     return [axis(key, values) for key, values in by_key(vary, "vary")]
 
 
 def axis(key: str, values: str | Iterable[Any] | Value) -> Axis:
-    """Give the axis of a key from a text as behind ``--vary``, a sequence or one value.
+    """Make the axis of a key from a text as in ``--vary``, a sequence or one value.
 
     InputError if there are no values, or they are not numbers, truth values or words.
     """
@@ -113,7 +113,7 @@ def _spaced(text: str) -> list[Value]:
         raise ValueError("a number is not finite")
     if geometric and not (start > 0.0 and stop > 0.0):
         raise ValueError("geometric spacing needs two positive numbers")
-    # round off the rounding error of a power: 0.1 and not 0.10000000000000002
+    # remove rounding errors: 0.1, not 0.10000000000000002
     spaced = [
         float(f"{v:.12g}") for v in (np.geomspace if geometric else np.linspace)(start, stop, count)
     ]
@@ -130,7 +130,7 @@ def _check_count(count: int) -> None:
 
 
 def _word(word: str) -> Value:
-    """Read a value as it stands in a case file."""
+    """Read a value as in a case file."""
     if not word:
         raise ValueError("a value is missing")
     if word.lower() in LOGICAL:
@@ -153,7 +153,7 @@ ECHOED = frozenset(
     "contact.moes_m contact.moes_l contact.moes_m_line contact.moes_l_line contact.radius_ratio "
     "contact.slide_to_roll surface.seed surface.velocity_ratio".split()
 )
-"""Keys whose results of the same name are their values."""
+"""Keys whose result of the same name repeats their value."""
 # Keys, their types, and descriptions of these
 KEYS: dict[str, tuple[Any, str]] = {
     "case": (str, "a text"),
@@ -169,9 +169,9 @@ KEYS: dict[str, tuple[Any, str]] = {
 class Point:
     """One case of a study."""
 
-    number: int  # its place in the table, from 0
-    index: tuple[int, ...]  # its place along each dimension of the study
-    values: dict[str, Value]  # what is varied, by key
+    number: int  # row of the table, from 0
+    index: tuple[int, ...]  # index along each dimension of the study
+    values: dict[str, Value]  # varied values by key
 
     def __str__(self) -> str:
         """Give the varied values, in one line."""
@@ -183,9 +183,9 @@ class Study:
     """A case and its varied keys."""
 
     case: Case | str  # a case, or the path of a case file
-    options: tuple[str, ...]  # that hold for all cases
-    # What is varied: the keys of one dimension move together. The last dimension is the fastest in
-    # the table
+    options: tuple[str, ...]  # options of all cases
+    # Varied keys: those of one dimension vary together; the last dimension varies fastest in the
+    # table
     dimensions: tuple[tuple[Axis, ...], ...]
     run: str  # one of `RUNS`
     outputs: tuple[str, ...] = ()  # names of results wanted in the table; empty: all numbers
@@ -202,7 +202,7 @@ class Study:
 
     @property
     def tracks(self) -> bool:
-        """Whether predictions go over the tracks of a surface, which takes twice the time."""
+        """Whether predictions include the tracks of a surface, which takes twice the time."""
         return self.run == "predict" and not set(TRACKS).isdisjoint(self.outputs)
 
     @property
@@ -214,8 +214,8 @@ class Study:
     def names(self) -> dict[str, str]:
         """Names of the varied keys in a Dataset.
 
-        What is behind the dot; with the group before it where two keys, or a key and a result that
-        need not be its value, are called so.
+        The name without its group, unless two keys, or a key and a result that may differ from it,
+        would have the same name.
         """
         short = {key: key.partition(".")[2] for key in self.keys}
         twice = Counter(short.values())
@@ -239,10 +239,10 @@ class Study:
         return map(self.point, range(self.size))
 
     def spread(self, count: int) -> list[int]:
-        """Numbers of about so many cases that have, together, the values of each dimension.
+        """Numbers of about `count` cases that together cover the values of each dimension.
 
-        First those at the ends of all dimensions. Of a dimension with more than `count` values
-        they have as many, equally spaced.
+        The first ones are at the ends of all dimensions. A dimension with more than `count` values
+        is sampled with equal spacing.
         """
         ends = itertools.islice(itertools.product(*({0, n - 1} for n in self.shape)), count)
         random = np.random.default_rng(0)
@@ -262,7 +262,7 @@ class Study:
 
     @contextmanager
     def named(self, point: Point) -> Iterator[None]:
-        """Put the case before its error, which is InputError then."""
+        """Raise an error as InputError, with the case before its message."""
         try:
             yield
         except EhlError as error:
@@ -288,7 +288,7 @@ class Study:
 
 
 def contents(files: Collection[str]) -> dict[str, str]:
-    """Give the SHA-256 of files by their names, from the folder that they have in common."""
+    """Give the SHA-256 of files by their paths relative to their common folder."""
     common = os.path.commonpath([os.path.dirname(name) for name in files]) if files else ""
     result = {}
     for name in files:
@@ -313,11 +313,10 @@ def make(
 ) -> Study:
     """Make a study.
 
-    `zipped`: True, all keys move together; else lists of the keys that do. `outputs` are the
-    results wanted in the table, none: all numbers. `origin` is where the study stands, for
-    messages. InputError if a key is varied twice, keys that move together have not as many values,
-    a value (of keys that move together: all their values) is there twice, or there is no such
-    output.
+    `zipped`: True, all keys vary together; else lists of the keys that do. `outputs` are the
+    results wanted in the table, none: all numbers. `origin` names the study file in messages.
+    InputError if a key is varied twice, keys that vary together have different numbers of values, a
+    value (or combination of such keys) is repeated, or an output does not exist.
     """
     if run not in RUNS:
         raise InputError(
@@ -332,7 +331,7 @@ def make(
     groups = [names] if zipped is True else [[k.strip().lower() for k in g] for g in zipped or ()]
     dimensions = _dimensions(axes, groups)
     for together in dimensions:
-        _refuse_twice(together)
+        _refuse_repeats(together)
     texts = tuple(str(text) for text in options)
     for text in texts:
         key = key_of(text)
@@ -345,8 +344,8 @@ def make(
     return study
 
 
-def _refuse_twice(together: Sequence[Axis]) -> None:
-    """Refuse a dimension of a study in which a case is there twice."""
+def _refuse_repeats(together: Sequence[Axis]) -> None:
+    """Refuse a dimension of a study with a repeated case."""
     for values, count in Counter(zip(*(a.values for a in together), strict=True)).items():
         if count > 1:
             names = ", ".join(a.key for a in together)
@@ -357,7 +356,7 @@ def _refuse_twice(together: Sequence[Axis]) -> None:
 def _dimensions(
     axes: Sequence[Axis], groups: Sequence[Sequence[str]]
 ) -> tuple[tuple[Axis, ...], ...]:
-    """Put keys that move together into one dimension, at the place of the first of them."""
+    """Put keys that vary together into one dimension, at the place of the first of them."""
     known = {a.key: a for a in axes}
     for key, count in Counter(key for group in groups for key in group).items():
         if key not in known:
@@ -379,8 +378,8 @@ def _dimensions(
 def read_study(path: str | os.PathLike[str]) -> dict[str, Any]:
     """Read a study file (TOML) into the arguments of :func:`pyehl.studies.study.make`.
 
-    Its keys are ``case`` (a path from the folder of the file), ``run``, ``zip`` (true, or lists of
-    keys), ``outputs`` (a list of names), and the tables ``set`` and ``vary`` of ``group.key``.
+    Its keys are ``case`` (a path relative to the file), ``run``, ``zip`` (true, or lists of keys),
+    ``outputs`` (a list of names), and the tables ``set`` and ``vary`` of ``group.key``.
     InputError with the file, the key and what was expected.
     """
     name = os.fspath(path)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run a study: many cases, one table (CSV, xarray Dataset); finished cases are kept."""
+"""Run a study: many cases, one table (CSV, xarray Dataset), and a journal of finished cases."""
 
 import os
 import signal
@@ -36,13 +36,13 @@ TABLE_INTERVAL = 30.0
 
 
 class Watcher:
-    """Callbacks of a study; these do nothing."""
+    """Callbacks of a study; the default ones do nothing."""
 
     def began(self, tasks: Sequence[Task], done: Sequence[int], workers: int) -> None:
-        """Take all tasks, the numbers of those done, and of the workers (0: not known)."""
+        """Receive all tasks, the numbers of the finished ones, and of workers (0: not known)."""
 
     def finished(self, rows: Sequence[tuple[int, Row]]) -> None:
-        """Take rows that are in the journal now."""
+        """Receive rows that are now in the journal."""
 
 
 @dataclass(slots=True)
@@ -50,9 +50,9 @@ class Outcome:
     """Outcome of a study."""
 
     rows: dict[int, Row]  # results by the number of the task
-    ran: int = 0  # tasks that were done now
-    interrupted: bool = False  # whether it was stopped
-    busy: float = 0.0  # seconds that these tasks took, all workers together
+    ran: int = 0  # tasks of this run
+    interrupted: bool = False
+    busy: float = 0.0  # seconds of these tasks, all workers together
     wall: float = 0.0  # seconds from the first task to the last row
 
     def statuses(self) -> dict[str, int]:
@@ -71,13 +71,13 @@ def gather(
     watcher: Watcher | None = None,
     write: Callable[[Mapping[int, Row]], None] | None = None,
 ) -> Outcome:
-    """Do the tasks that are not in the journal of a folder.
+    """Run the tasks that are not in the journal of a folder.
 
-    `identity` distinguishes them from other studies; `place` is the folder with the names
-    of its files, None: nothing is kept on disk. `jobs` worker processes do the tasks (0: as many
-    as processors), or those of a dask scheduler; `retry`: those that failed are done again. `write`
-    writes tables of the rows, at intervals and at the end. InputError if the folder holds another
-    study or something else, or is in use; FileError if it cannot be written.
+    `identity` distinguishes them from other studies; `place` is the folder with the names of its
+    files, None: no files are written. `jobs` worker processes (0: as many as processors), or those
+    of a dask scheduler, run the tasks; `retry`: failed ones run again. `write` writes tables of the
+    rows, at intervals and at the end. InputError if the folder holds another study or something
+    else, or is in use; FileError if it cannot be written.
     """
     watcher = watcher or Watcher()
     with nullcontext() if place is None else Journal(place.folder, identity, place) as journal:
@@ -92,7 +92,7 @@ def gather(
         began = written = time.monotonic()
         workers = pool.cluster_rows(left, scheduler) if scheduler else pool.rows(left, jobs)
         try:
-            # a transaction of the journal that is interrupted is whole, or not there
+            # an interrupted transaction of the journal is complete or absent
             with signals_to(signal.default_int_handler), closing(workers) as source:
                 for result in source:
                     if journal is not None:
@@ -107,7 +107,7 @@ def gather(
         except KeyboardInterrupt:
             outcome.interrupted = True
             if journal is not None:
-                # rows that were written at that instant
+                # include rows written at that moment
                 rows.update(journal.read())
         outcome.wall = time.monotonic() - began
         if write is not None:
@@ -115,7 +115,7 @@ def gather(
     return outcome
 
 
-# Words that are always in the table; other words only where they are requested
+# Texts that are always in the table; other texts only if they are requested
 TEXTS = ("status", "message")
 WORDS = ("flags", "outside_range", "assessment")
 
@@ -170,9 +170,9 @@ def over(
 ) -> xr.Dataset:
     """Give a table of all cases as a Dataset over the varied keys.
 
-    Dimensions have the names of `Study.names`, and their keys as attributes; keys that move
-    together are coordinates of the dimension of the first of them, of a `kind` if it is given.
-    Where there is no number there is NaN, where there is no word ''.
+    Dimensions have the names of `Study.names`, and their keys as attributes; keys that vary
+    together are coordinates of the dimension of the first of them, converted to `kind` if it is
+    given. Missing numbers are NaN, missing texts ''.
     """
     called = study.names
     names = tuple(called[axes[0].key] for axes in study.dimensions)
@@ -188,7 +188,7 @@ def over(
     variables = {}
     for name in table.columns.drop(study.keys):
         if name in coords:
-            # the value that was given, see `ECHOED`
+            # it repeats the coordinate, see `ECHOED`
             continue
         column = table[name]
         if name in TEXTS or column.map(type).eq(str).any():
@@ -207,7 +207,7 @@ def perform(
     folder: AnyPath | None,
     *,
     force: bool = False,
-    **how: Any,  # noqa: ANN401 (as of `gather`)
+    **options: Any,  # noqa: ANN401 (as in `gather`)
 ) -> Outcome:
     """Run the missing cases of a study.
 
@@ -215,14 +215,14 @@ def perform(
     study or something else, or is in use; FileError if it cannot be written.
     """
     if folder is None:
-        return gather(todo.tasks, todo.identity(), **how)
+        return gather(todo.tasks, todo.identity(), **options)
     folder = Path(folder)
 
     def write(rows: Mapping[int, Row]) -> None:
         write_csv(folder / CSV, results(todo.study, todo.points, rows))
 
     place = Destination(folder, "sweep", (*JOURNAL, CSV, NETCDF, CASES), force=force)
-    outcome = gather(todo.tasks, todo.identity(), place, write=write, **how)
+    outcome = gather(todo.tasks, todo.identity(), place, write=write, **options)
     write_netcdf(folder / NETCDF, dataset(todo.study, todo.points, outcome.rows))
     return outcome
 
@@ -246,24 +246,23 @@ def sweep(
     case
         A case, or the path of a case file.
     vary
-        Values by ``group.key``, or by group and key: a sequence, or a text as behind ``pyehl sweep
+        Values by ``group.key``, or by group and key: a sequence, or a text as in ``pyehl sweep
         --vary``.
     *options
-        Values that hold for all cases, as of `Case`.
+        Values for all cases, as for `Case`.
     zipped
-        True: all keys move together; else lists of the keys that do. Otherwise every value of a
-        key meets every value of the others.
+        True: all keys vary together; else lists of the keys that do. By default the cases are all
+        combinations.
     run
         'solve', 'predict' or 'film'.
     outputs
-        Names of results; none: all numbers and ``assessment``. Mean and
-        spread over the tracks of a prediction, which take twice the time, are made only where they
-        are named.
+        Names of results; none: all numbers and ``assessment``. Mean and spread over the tracks of a
+        prediction, which take twice the time, are computed only if they are named.
     output
-        Folder for the journal and the table, from which an interrupted study is resumed; None:
-        nothing is kept on disk.
+        Folder for the journal and the table, from which an interrupted study is resumed; None: no
+        files are written.
     force
-        Other files may be in that folder; they stay.
+        Accept other files in that folder; they stay.
     jobs
         Worker processes; 0: as many as processors.
     scheduler
@@ -272,17 +271,17 @@ def sweep(
     Returns
     -------
     xarray.Dataset
-        Its dimensions are the varied keys, `load` of ``contact.load``; the attribute ``key`` is the
-        key, and its group is in its name where another key or a result is called so,
-        `grid_points`. Results by their names in ``summary.json`` (units as there), ``status``,
-        ``seconds`` and ``message``; NaN where there is no number.
+        Its dimensions are the varied keys without their groups, `load` for ``contact.load``, or
+        with them, `grid_points`, if another key or a result has that name; the attribute ``key`` is
+        the full key. Results by their names in ``summary.json`` (units as there), ``status``,
+        ``seconds`` and ``message``; NaN for a missing number.
 
     Raises
     ------
     InputError
         If any case is not acceptable (nothing runs then), or `output` holds another study.
     KeyboardInterrupt
-        If it was interrupted; `output` has all that was finished.
+        If it was interrupted; `output` has all finished cases.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Work of a worker process: one case of a study gives a row of its table; names of the results.
+"""Tasks of a worker process: one case of a study gives one row of its table.
 
-No failure of a case ends a worker: it is the status and the message of a row.
+A failed case does not end its worker: the row has the status and the message.
 """
 
 import json
@@ -33,14 +33,14 @@ from pyehl.types import Row
 LAST = ("status", "seconds", "message")
 """Last columns of every table."""
 TRACKS = ("tracks", "mu_ratio_tracks", "mu_ratio_tracks_spread")
-"""Results of a prediction that are made only where they are requested."""
+"""Results of a prediction that are computed only on request."""
 
 KINDS = {"solve": "solution", "predict": "prediction", "film": "film"}
 NOT_IN_A_TABLE = frozenset(
     "bands film_breakdown formulas pixels schema_version second_pixels second_surface_preparation "
     "surface_preparation wall_seconds".split()
 )
-"""Quantities that are no number, truth value or word, that all cases share, or are `seconds`."""
+"""Quantities that are not scalars, that all cases have in common, or that equal `seconds`."""
 
 
 def film_columns(name: str) -> tuple[str, str]:
@@ -50,7 +50,7 @@ def film_columns(name: str) -> tuple[str, str]:
 
 
 def known(run: str) -> list[str]:
-    """Names of all results that a table may have where `run` is done with each case."""
+    """Names of all results that a table may have for a kind of run."""
     kind = KINDS[run]
     names = [q.name for q in schema.QUANTITIES if kind in q.kinds]
     if run == "film":
@@ -63,9 +63,9 @@ def known(run: str) -> list[str]:
 
 
 def checked(outputs: Sequence[str], run: str, origin: str = "") -> tuple[str, ...]:
-    """Give the requested names, each once.
+    """Return the requested names, each once.
 
-    InputError for one that no table has, with the nearest; `origin` states where it stands.
+    InputError for an unknown name, with the nearest one; `origin` names the study file.
     """
     names = known(run)
     for name in outputs:
@@ -84,27 +84,27 @@ INSIDE, OUTSIDE = "inside all ranges", "outside the range of a formula"
 RESULTS = frozenset({"converged", "predicted", INSIDE, OUTSIDE})
 """Statuses of cases that have a result."""
 FINDINGS = RESULTS | {"film breakdown", BEYOND}
-"""Statuses of finished cases: with a result, or with a physical reason why there is none."""
+"""Statuses of finished cases: with a result, or without one for a physical reason."""
 
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """One case to be done."""
+    """One case to be run."""
 
-    number: int  # place in the table
+    number: int  # row of the table
     text: str  # the resolved case
     run: str  # 'solve', 'predict' or 'film'
-    folder: str = ""  # where its results go; '' for nowhere
-    seconds: float = 0.0  # how long it may take, by estimate
-    shares: str = ""  # what it has in common with others; those go to one worker where possible
-    # A prediction with its tracks, bands and a suggested cut-off; else mu_r/mu_s and its errors
+    folder: str = ""  # result folder; '' for none
+    seconds: float = 0.0  # estimated time
+    shares: str = ""  # work in common with other tasks, which preferably go to the same worker
+    # Whether a prediction has tracks, bands and a suggested cut-off, or only mu_r/mu_s and errors
     full: bool = False
 
 
 def why_none(row: Mapping[str, Any]) -> str:
-    """State why a case has no result; '' for one that has.
+    """State why a case has no result; '' if it has one.
 
-    Film breakdown is a valid outcome without a result: there is no ratio.
+    Film breakdown is a valid outcome without a result: there is no friction ratio.
     """
     if row["status"] in RESULTS:
         return ""
@@ -112,9 +112,9 @@ def why_none(row: Mapping[str, Any]) -> str:
 
 
 def execute(task: Task) -> Row:
-    """Do a task; results by their names in ``summary.json``, ``status``, ``seconds``, ``message``.
+    """Run a task; results by their names in ``summary.json``, ``status``, ``seconds``, ``message``.
 
-    `seconds` is the time of the case itself [s].
+    `seconds` is the time of the case alone [s].
     """
     began = time.perf_counter()
     try:
@@ -122,7 +122,7 @@ def execute(task: Task) -> Row:
     except Exception as error:
         row = {"status": FAILED, "message": str(error)}
         if not isinstance(error, EhlError):
-            # no fault of the case: the journal keeps where it was raised
+            # not an error of the case: the journal records where it was raised
             row["message"] = f"{type(error).__name__}: {error}"
             row["traceback"] = traceback.format_exc()
     row["seconds"] = round(time.perf_counter() - began, 6)
@@ -130,7 +130,7 @@ def execute(task: Task) -> Row:
 
 
 def execute_all(tasks: Sequence[Task], folder: str) -> list[Row]:
-    """Do several tasks in a folder, one after the other."""
+    """Run several tasks in a folder, one after the other."""
     os.chdir(folder)
     return [execute(task) for task in tasks]
 

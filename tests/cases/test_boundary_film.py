@@ -360,7 +360,7 @@ def test_no_error_where_a_layer_that_gives_much_carries_most(solve):
         assert done["contact_load_share"] > 0.5
         assert done["mass_defect"] > 0.1
         assert done["contact_load_share_error"] is None
-    assert "would have to give much of the flow" in runs[1]["contact_load_share_error_note"]
+    assert "would have to supply much of the flow" in runs[1]["contact_load_share_error_note"]
 
 
 def test_both_drivers_find_the_same(solve, tmp_path):

@@ -120,7 +120,7 @@ def test_last_lines(drive, tmp_path: Path):
         (ON_GRID, ["time.estimate_error=.false."], "time.estimate_error is false"),
         (WAVE.format(65, 0.2), ["time.steps=160"], "because of time.steps"),
         (COARSE_FAILS, [], "coarser grid ended with the status 'negative film'"),
-        (LEFT_OUT, ["surface.velocity_ratio=0"], "not predicted (for surfaces on the move alone)"),
+        (LEFT_OUT, ["surface.velocity_ratio=0"], "not predicted (only for moving surfaces)"),
     ],
     ids=["no coarser run", "time.steps", "coarser run fails", "at rest"],
 )

@@ -163,7 +163,7 @@ def test_the_case_in_it_can_be_run(folders, tmp_path, root):
     ("load", "verdict"),
     [
         ("50,51", "Holds. 2 of 2 cases have a result."),
-        ("50,300", "2 of 2 cases have a result. Of these: 1 'outside the range of a formula'."),
+        ("50,300", "2 of 2 cases have a result. With care: 1 'outside the range of a formula'."),
     ],
 )
 def test_films_by_formula_are_results(tmp_path, root, load, verdict):
@@ -200,7 +200,7 @@ def test_a_failed_case_of_a_study_is_said(folders, tmp_path):
     rows[1] = rows[1].replace(",converged,", ",cycle limit,")
     (folder / "results.csv").write_text("\n".join(rows) + "\n")
     page = read(pyehl.report(folder, tmp_path / "page.html"))
-    assert "Take with care. 2 of 3 cases have a result. The others: 1 'cycle limit'" in page.text
+    assert "Take with care. 2 of 3 cases have a result. Others: 1 'cycle limit'" in page.text
 
 
 def test_heat_that_the_friction_has_is_no_warning(root):

@@ -76,7 +76,7 @@ def test_waves_beside_the_centre_line_on_the_page(root: Path, beside):
     folder = root / "docs" / "evidence" / "response"
     off = beside("response", "off_centre")
     table = np.loadtxt(folder / "off_centre.csv", delimiter=",", skiprows=1)
-    left = off.left(table)
+    left = off.residuals(table)
     (half, more) = (
         [
             f"{np.sqrt(np.mean(left[(table[:, 0] == m) & (table[:, 3] == y)] ** 2)):.3f}"

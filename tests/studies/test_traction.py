@@ -131,7 +131,7 @@ def test_roughness_of_the_second_surface_has_a_left_end():
 
 @pytest.mark.parametrize(
     ("option", "words"),
-    [("surface.kind=smooth", "has no Lambda"), ("surface.kind=fractal", "ratio of friction alone")],
+    [("surface.kind=smooth", "has no Lambda"), ("surface.kind=fractal", "a friction ratio only")],
 )
 def test_no_empirical_number(tmp_path: Path, option: str, words: str):
     case = pyehl.Case.from_text(BALL.replace("eyring", "newtonian"), [option])

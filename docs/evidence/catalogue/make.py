@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random bearings and gear pairs: what came of them.
+"""Outcomes of random bearings and gear pairs.
 
 ``python benchmarks/catalogue.py --seed 7 --solve 15 -o seed7.json``, then
-``python docs/evidence/catalogue/make.py seed7.json`` writes machines.csv; of several files too.
+``python docs/evidence/catalogue/make.py seed7.json ...`` writes machines.csv.
 """
 
 import csv
@@ -25,7 +25,7 @@ def read() -> list[dict[str, str]]:
 
 
 def lines() -> list[str]:
-    """Give the table of what came of them, by kind."""
+    """Make the table of outcomes by kind."""
     rows = read()
     result = [
         "| machines | drawn | refused | passed | contacts solved | converged "

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rough balls at rest under a slow smooth body, beside dry contact by ContactMechanics.
+"""Rough balls at rest under a slow smooth body, compared with dry contact by ContactMechanics.
 
-    python docs/evidence/contact/dry.py run      adds what is missing to dry.csv
+    python docs/evidence/contact/dry.py run      adds missing rows to dry.csv
     python docs/evidence/contact/dry.py show     prints the table of README.md
 
-Seconds a run on 129 x 129 nodes, ten on 257 x 257; needs ContactMechanics (pyehl[test]).
+A run takes seconds on 129 x 129 nodes and ten on 257 x 257; needs ContactMechanics (pyehl[test]).
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ CASE = f"""
 /
 """
 WAVE = {"surface.kind": "harmonic", "surface.amplitude": 0.02}
-# Waves on one axis alone
+# Waves along one axis only
 RIDGES = WAVE | {"surface.amplitude": 0.3, "surface.wavelength": 1.0}
 # A tile as large as the domain, whose shortest wave is half the Hertz radius
 TILE = {
@@ -75,7 +75,7 @@ def dry_pressure(
     limit: float | None = None,
     modulus: float = REDUCED_MODULUS,
 ) -> Array:
-    """Pressure [p_h] of a result's bodies in dry contact, on its nodes.
+    """Pressure [p_h] of the bodies of a result in dry contact, on its nodes.
 
     `limit`: hardness [p_h] of bodies that are elastic and perfectly plastic.
     """
@@ -108,7 +108,7 @@ def dry_area(summary: Mapping[str, Any], pressure: Array) -> float:
 
 
 def simulated(surface: str, points: int) -> Row:
-    """Solve one contact, and compare it where it has a solution."""
+    """Solve one contact, and compare it if it has a solution."""
     changes = SURFACES[surface] | {"grid.points": points}
     with pyehl.Solver(pyehl.Case.from_text(CASE, changes)) as solver:
         solver.run()
@@ -128,7 +128,7 @@ def simulated(surface: str, points: int) -> Row:
 
 
 def read() -> list[Row]:
-    """Read dry.csv; nothing where there is none."""
+    """Read dry.csv; empty if it is missing."""
     if not TABLE.exists():
         return []
     with TABLE.open(encoding="utf-8", newline="") as stream:
@@ -164,7 +164,7 @@ def lines() -> list[str]:
 
 
 def main() -> None:
-    """Do what the first argument says."""
+    """Run the command of the first argument."""
     if sys.argv[1:] == ["run"]:
         rows = read()
         known = {(row["surface"], row["points"]) for row in rows}

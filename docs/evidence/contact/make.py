@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Load shares of a boundary film on ever finer grids.
+"""Load shares of a boundary film under grid refinement.
 
-    python docs/evidence/contact/make.py run [POINTS ...]    adds what is missing to shares.csv
+    python docs/evidence/contact/make.py run [POINTS ...]    adds missing rows to shares.csv
     python docs/evidence/contact/make.py show                prints the tables of README.md
 
-Seconds to minutes a run of one core up to 513 x 513 nodes, a quarter of an hour on 1025 x 1025.
+A run takes seconds to minutes on one core up to 513 x 513 nodes, 15 minutes on 1025 x 1025.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ CASE = """
 /
 """
 Row = dict[str, Any]
-# Waves of half a Hertz radius that slide, so high [a^2/R], at a load [N]
+# Sliding waves with a wavelength of half a Hertz radius
 WAVES = {"surface.kind": "harmonic", "surface.wavelength": 0.5, "contact.slide_to_roll": 1.0}
 
 
@@ -43,7 +43,7 @@ def _waves(load: float, height: float, **law: float | str) -> Row:
     return WAVES | changes | {f"lubricant.{key}": value for key, value in law.items()}
 
 
-# Changes of the case, layers [m] and nodes a side; the finest grids take the layers from 40 nm on
+# Changes of the case, boundary films [m], nodes per side; films up to THICK are not on fine grids
 THICK = 3e-8
 CONTACTS: dict[str, tuple[Row, tuple[float, ...], tuple[int, ...]]] = {
     "heavy": (
@@ -62,7 +62,7 @@ CONTACTS: dict[str, tuple[Row, tuple[float, ...], tuple[int, ...]]] = {
         (4e-8, 8e-8),
         (129, 257, 513),
     ),
-    # a fractal tile as long as the Hertz radius, whose shortest wave has 16 nodes of 257 x 257
+    # a fractal tile as long as the Hertz radius, whose shortest wave has 16 nodes on 257 x 257
     "fractal": (
         {
             "contact.load": 100.0,
@@ -99,7 +99,7 @@ def runs() -> list[Row]:
 
 
 def read() -> list[Row]:
-    """Read shares.csv; nothing where there is none."""
+    """Read shares.csv; empty if it is missing."""
     path = HERE / "shares.csv"
     if not path.exists():
         return []
@@ -108,7 +108,7 @@ def read() -> list[Row]:
 
 
 def key_of(row: Row) -> tuple[str, float, int]:
-    """Give what tells a run from others."""
+    """Give the key of a run."""
     return row["contact"], float(row["boundary_film"]), int(row["points"])
 
 
@@ -125,7 +125,7 @@ def simulated(run: Row) -> Row:
 
 
 def add(grids: list[int]) -> None:
-    """Simulate what is missing, on some grids or on all."""
+    """Simulate missing runs, on some grids or on all."""
     rows = read()
     known = {key_of(row) for row in rows}
     for run in sorted(runs(), key=lambda r: r["points"]):
@@ -140,7 +140,7 @@ def add(grids: list[int]) -> None:
 
 
 def cell(row: Row | None) -> str:
-    """Give a load share and its error, or the status of a run without."""
+    """Format a load share and its error, or the status of a run without one."""
     if row is None:
         return ""
     if not row["contact_load_share"]:
@@ -163,7 +163,7 @@ def lines(name: str) -> list[str]:
 
 
 def main() -> None:
-    """Do what the first argument says."""
+    """Run the command of the first argument."""
     if sys.argv[1:2] == ["run"]:
         add([int(points) for points in sys.argv[2:]])
     elif sys.argv[1:] == ["show"]:

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Error of multilevel multi-integration by grid and by patch, beside that of the discretisation.
+"""Error of multilevel multi-integration by grid and by patch, and that of the discretisation.
 
-    python docs/evidence/deflection/make.py run     writes errors.csv, in some seconds
+    python docs/evidence/deflection/make.py run     writes errors.csv, in a few seconds
     python docs/evidence/deflection/make.py show    prints the tables of both pages
 
 The pressure is that of Hertz on -2.5 <= X <= 1.5, |Y| <= 2. The error of the multi-integration is
-its largest difference from the sum that it stands for (engine 'fft'), that of the discretisation
-the largest difference of this sum from 1 - r^2/2 in the contact, and well inside (r < 1/2).
+its maximum difference from the full sum (engine 'fft'), that of the discretisation the maximum
+difference of this sum from 1 - r^2/2 in the contact, and well inside (r < 1/2).
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from common import hertz
 
 HERE = Path(__file__).resolve().parent
 POINTS = (65, 129, 257, 513, 1025)
-# Accuracies asked for on 257 x 257 nodes
+# Requested accuracies on 257 x 257 nodes
 ACCURACIES = (2e-4, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
 KEYS = ("points", "accuracy")
 NAMES = ("order", "along", "across", "values", "error", "discretisation", "inside")
@@ -39,7 +39,7 @@ Row = dict[str, Any]
 
 
 def asked(h: float) -> float:
-    """Accuracy that the solver asks for, as `deflection_accuracy` in fortran/multigrid."""
+    """Accuracy that the solver requests, as `deflection_accuracy` in fortran/multigrid."""
     return float(2.2e-5 * (128.0 * h) ** 1.35)
 
 
@@ -52,7 +52,7 @@ def weights(t: int) -> Array:
 
 
 def kernel(h: float, along: int, across: int) -> Array:
-    """Deflection by a cell so many meshes away, by its corners (Love 1929)."""
+    """Deflection by a cell at distances of 0 to `along` and `across` meshes (Love 1929)."""
     x, y = np.meshgrid(
         h * (np.arange(along + 2) - 0.5), h * (np.arange(across + 2) - 0.5), indexing="ij"
     )
@@ -61,7 +61,7 @@ def kernel(h: float, along: int, across: int) -> Array:
 
 
 def chosen(wanted: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Wanted values and those nearer to the axis across, even and odd offsets apart."""
+    """Wanted values and those closer to the origin along X, for even and odd offsets separately."""
     kept = np.zeros_like(wanted)
     width = int(np.flatnonzero(wanted.sum(axis=0) >= FEW).max(initial=0))
     for b in range(width + 1):
@@ -73,7 +73,7 @@ def chosen(wanted: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def patch(h: float, accuracy: float) -> Row:
-    """Order of the transfers, and the patch of the first halving, as mlmi_up.f90 finds it."""
+    """Order of the transfers, and patch of the first coarsening, as in mlmi_up.f90."""
     goal = min(accuracy, LOOSEST)
     t = 3 + sum(goal < 0.999 * limit for limit in LIMITS)
     table = kernel(h, REACH + 2 * t, REACH)
@@ -96,7 +96,7 @@ def patch(h: float, accuracy: float) -> Row:
 
 
 def row(points: int, accuracy: float) -> Row:
-    """Errors on a grid, with the patch that an accuracy asks for."""
+    """Errors on a grid, with the patch of a requested accuracy."""
     p, h, exact, contact = hertz(points)
     whole, fast = (
         library.deflection(p, h, h, engine, accuracy=accuracy).values for engine in ("fft", "mlmi")
@@ -114,7 +114,7 @@ def row(points: int, accuracy: float) -> Row:
 
 
 def runs() -> list[tuple[int, float]]:
-    """Grids with the accuracy of the solver, and one grid with others."""
+    """Grids with the accuracy of the solver, and one grid with other accuracies."""
     return [(n, asked(4.0 / (n - 1))) for n in POINTS] + [(257, a) for a in ACCURACIES]
 
 
@@ -125,7 +125,7 @@ def read() -> list[Row]:
 
 
 def power(value: float) -> str:
-    """Write a number as the page has it."""
+    """Format a number for the page."""
     digits, exponent = f"{value:.1e}".split("e")
     return f"{digits}·10{str(int(exponent)).translate(str.maketrans('-0123456789', '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'))}"
 
@@ -158,7 +158,7 @@ def tables() -> tuple[list[str], list[str]]:
 
 
 def main() -> None:
-    """Do what the argument says."""
+    """Run the command of the argument."""
     if sys.argv[1:] == ["run"]:
         with (HERE / "errors.csv").open("w", encoding="utf-8", newline="") as stream:
             table = csv.DictWriter(stream, [*KEYS, *NAMES], lineterminator="\n")

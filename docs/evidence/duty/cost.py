@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Instructions of a time step, with a duty and without one, of two builds of ``ehl``.
+"""Instructions per time step, with and without a duty, of two builds of ``ehl``.
 
     python docs/evidence/duty/cost.py EARLIER_EHL EHL
 
-writes cost.csv anew. A harmonic surface in pure rolling, on 65 nodes; the duty is constant.
-Steps are 65 to 128, four periods of the wave, by callgrind; time.scheme = 'paper' without a duty.
+rewrites cost.csv. A harmonic surface in pure rolling, on 65 nodes; the duty is constant. callgrind
+counts the steps 65 to 128, four periods of the wave; without a duty time.scheme = 'paper'.
 """
 
 import csv
@@ -38,7 +38,7 @@ def count(program: str, case: str) -> tuple[Counts, dict[str, str]]:
         (path / "case.nml").write_text(case, encoding="utf-8")
         counter = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={path}/counts"]
         run = [program, str(path / "case.nml"), "-o", str(path / "out"), "--quiet"]
-        # without an error of its mean friction it ends as not converged
+        # without an error of its mean friction the run ends as not converged
         subprocess.run([*counter, *run], check=False, capture_output=True)
         line = [
             line

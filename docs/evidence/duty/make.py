@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Line contacts under duties: ``python docs/evidence/duty/make.py`` writes table.csv anew."""
+"""Line contacts under duties: ``python docs/evidence/duty/make.py`` rewrites table.csv."""
 
 import csv
 import sys
@@ -19,7 +19,7 @@ Row = tuple[str, str, float, float]
 
 
 def periodic() -> Iterator[Row]:
-    """Speed 1 + 0.5 sin(2 pi T/8), third period, beside another one-dimensional solver."""
+    """Speed 1 + 0.5 sin(2 pi T/8), third period, compared with another line-contact solver."""
     time = np.linspace(0.0, 8.0, 65)
     speed = 1.0 + 0.5 * np.sin(2.0 * np.pi * time / 8.0)
     speed[-1] = speed[0]
@@ -50,7 +50,7 @@ def steady(speed: float) -> float:
 
 
 def slow() -> Iterator[Row]:
-    """H_c at the middle of a rise of the speed from 1 to 1.2 below that of the steady contact."""
+    """Deficit of H_c to the steady film at the middle of a speed ramp from 1 to 1.2."""
     film = steady(1.1)
     before = 0.0
     for length in (10.0, 20.0, 40.0):
@@ -61,7 +61,7 @@ def slow() -> Iterator[Row]:
 
 
 def steps() -> Iterator[Row]:
-    """Largest difference to an eighth of the time step, largest error stated, and coverage."""
+    """Maximum difference to an eighth of the time step, maximum stated error, and coverage."""
     for name, (time, duty) in DUTIES.items():
         grid = BOTH_SIDES if name == "reversal" else None
         for share in (2.0, 1.0, 0.5):
@@ -73,7 +73,7 @@ def steps() -> Iterator[Row]:
 
 
 def asked() -> Iterator[Row]:
-    """Largest difference of both films to a sixteenth of the time step, and the error asked for."""
+    """Maximum difference of both films to a sixteenth of the time step, and requested error."""
     for name, (time, duty) in DUTIES.items():
         grid = BOTH_SIDES if name == "reversal" else None
         some = slice(None, None, 4 if len(time) > 8 else 1)
@@ -90,7 +90,7 @@ def asked() -> Iterator[Row]:
 
 
 def phase() -> Iterator[Row]:
-    """Phase of H_c behind the quasi-static film under 1 + 0.1 sin(2 pi T/period)."""
+    """Phase lag of H_c behind the quasi-static film under 1 + 0.1 sin(2 pi T/period)."""
     slope = (steady(1.1) - steady(0.9)) / 0.2
     for period in (4.0, 8.0, 16.0, 32.0):
         time = np.linspace(0.0, period, 65)
@@ -108,7 +108,7 @@ def phase() -> Iterator[Row]:
 
 
 def newton() -> Iterator[Row]:
-    """Largest differences of H_c and H_min to Newton's method in the same steps."""
+    """Maximum differences of H_c and H_min to Newton's method in the same steps."""
     duties = {
         "load from 1 to 1.5": (
             (-4.0, 1.5),

@@ -80,7 +80,7 @@ def surface(row: dict[str, Any]) -> Topography:
 
 
 def radius_ratio(ellipticity: float) -> float:
-    """R_x/R_y of a contact with the other semi-axis so many times as long as a."""
+    """R_x/R_y of a contact with an ellipticity, the other semi-axis over a."""
 
     def miss(log_ratio: float) -> float:
         return math.log(ellipse(math.exp(log_ratio)).ellipticity / ellipticity)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""T and pressure over roughness of single waves at X = Y = 0, as the prediction has them."""
+"""T and pressure over roughness of single waves at X = Y = 0, by the model of the prediction."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ def at_centre(
     edge: bool,
     spacing: float = 0.0,
 ) -> tuple[Complex, Complex]:
-    """Give both, of waves: wavenumbers (m,) [1/a] and the velocity ratio.
+    """Give both for `waves`: wavenumbers (m,) [1/a] and the velocity ratio.
 
-    `edge`: whether the contact ends; else waves go on beyond it.
+    `edge`: whether the contact has an edge; else waves continue beyond it.
     """
     kx, ky, ratio = waves
     slip = ratio - 1.0
@@ -51,7 +51,7 @@ def at_centre(
 
 
 def _edge(shape: Ellipse, kx: Array, ky: Array) -> Complex:
-    """Give what the edge does to the pressure of a wave at the centre."""
+    """Give the change by the edge of the pressure of a wave at the centre."""
     result = EllipseEdge(shape)
     origin = np.zeros(1)
     q = np.hypot(kx, ky)

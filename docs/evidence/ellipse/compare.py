@@ -2,7 +2,7 @@
 """Compare the prediction with the simulated cases on ellipses.
 
 Writes table.csv and ellipse.png beside this file and prints bias, scatter and coverage. With
---predict it only predicts what is not yet in predicted.csv, which is from before the simulations:
+--predict it only adds missing predictions to predicted.csv, which predates the simulations:
 
     python docs/evidence/ellipse/compare.py [--predict]
 """
@@ -39,7 +39,7 @@ def prediction(row: dict[str, Any]) -> float:
 
 
 def _error(run: dict[str, Any]) -> float | None:
-    """Error of a simulation; None where the coarse grid has no full film."""
+    """Error of a simulation; None if the coarse grid has no full film."""
     grid = run["mu_ratio_error_grid"]
     return None if grid is None else round(grid + run["mu_ratio_error_stop"], 4)
 
@@ -53,7 +53,7 @@ def write(name: str, table: list[dict[str, Any]]) -> None:
 
 
 def predict() -> None:
-    """Add to predicted.csv the cases that are not in it."""
+    """Add missing cases to predicted.csv."""
     table = read("predicted.csv")
     there = {row["name"] for row in table}
     for row in read("cases.csv"):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draw the cases r01 to r10 of cases.csv: python docs/evidence/ellipse/draw.py.
 
-Ellipticity, operating point and surface are drawn at random; the rms height is such that the
-prediction is near a ratio drawn as well. All waves are longer than a/16, so that the grid has them.
+Ellipticity, operating point and surface are drawn at random; the rms height is adjusted so that the
+prediction is near a random ratio. All waves are longer than a/16, so that the grid resolves them.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def drawn(number: int, random: np.random.Generator) -> dict[str, Any]:
     row["pixels_y"] = round(96 * row["length_y"])
     for _ in range(8):
         result = prediction(row)
-        # the rise is of second order in the height
+        # the increase is of second order in the height
         row["rms_height"] *= min(2.0, max(0.5, ((goal - 1.0) / max(result - 1.0, 0.01)) ** 0.4))
     return {k: float(f"{v:.5g}") if isinstance(v, float) else v for k, v in row.items()}
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Simulate cases of cases.csv that are not yet in simulated.csv, some minutes each on one core.
+"""Simulate the cases that simulated.csv does not have, several minutes each on one core.
 
 python docs/evidence/ellipse/make.py [--points N] [NAME ...]
 
-On `--points` nodes along X in place of those of the table they go to coarse.csv, or fine.csv where
-these are more.
+Results with another number of nodes along X, `--points`, go to coarse.csv, or to fine.csv if it is
+larger than that of cases.csv.
 """
 
 from __future__ import annotations

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compare how the inlet transfer falls off the centre line of ellipses with off_centre.csv.
+"""Compare the inlet transfer off the centre line of ellipses with off_centre.csv.
 
     python docs/evidence/ellipse/off_centre.py [--measure FILE.csv]
 
 The table has modulus and lag [deg] of G exp(-i k (U - 1) (1 - y^2)^(1/2)), G as in pyehl/theory/
 response.py, of waves with crests across the motion at (M, L) = (500, 10) of the circle with the
 same dry inlet, U = 1.02, on 257 nodes along X, at four distances y [semi-axis] from the centre
-line. Nothing of the response is fitted to it. It was measured with version 0.1.0; with --measure
-the waves are measured anew, less than a minute.
+line. The response is not fitted to it. It was measured with version 0.1.0; --measure repeats the
+measurement in less than a minute.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from pyehl.theory.transport import transport
 
 RATIO = 1.02
 LINES = (0.0, 0.25, 0.5, 0.625)
-# Wavelengths along the tile of the waves that the table has
+# Numbers of wavelengths along the tile of the waves in the table
 ALONG = (3, 4, 5, 6, 7, 8, 10, 11, 13, 15, 18, 20)
 
 

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measure small waves on elliptical contacts: lines of response.csv, a minute or some each.
+"""Measure small waves on elliptical contacts: rows of response.csv, a few minutes each.
 
     python docs/evidence/ellipse/response.py ELLIPTICITY M L U     measures and adds waves
-    python docs/evidence/ellipse/response.py                       predicts those of the table anew
+    python docs/evidence/ellipse/response.py                       repeats the predictions
 
-M and L are those of the circular contact with the same dry inlet (`equivalent_moes`). A line is a
-wave, on 257 nodes along X, at X = Y = 0: T as measured; by the response of the circle with the
-same inlet and film, that with the same dry inlet, that of Biboulet & Houpert 2010, and that of M
-and L by R_x; the pressure over roughness measured, and by the first.
+M and L are those of the circular contact with the same dry inlet (`equivalent_moes`). A row is a
+wave, on 257 nodes along X, at X = Y = 0: measured T; T by the response of the circle with the same
+inlet and film, with the same dry inlet, of Biboulet & Houpert 2010, and with M and L by R_x;
+pressure over roughness, measured and by the first model.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def smooth_zone(settings: dict[str, dict[str, Any]], points: int) -> Zone:
 def predicted(
     conditions: Sequence[float], kx: Array, ky: Array, points: int
 ) -> tuple[list[Complex], Array]:
-    """T by the models and pressure over roughness by the first, of waves on a grid."""
+    """T of waves on a grid by all models, and pressure over roughness by the first model."""
     settings = case_of_circle(*conditions).resolve()
     ratio, spacing = conditions[3], WIDTH / (points - 1)
     point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
@@ -84,7 +84,7 @@ def predicted(
 
 
 def lines(conditions: list[float], waves: WaveSet, result: Superposition) -> list[list[str]]:
-    """Give the lines of a measurement."""
+    """Make the rows of a measurement."""
     amplitudes, pressure = predicted(conditions, waves.kx, waves.ky, TIERS[0].points)
     middle = int(np.argmin(np.abs(result.x)))
     table = []
@@ -101,7 +101,7 @@ def lines(conditions: list[float], waves: WaveSet, result: Superposition) -> lis
 
 
 def again() -> list[list[str]]:
-    """Lines of the table with the predictions of today."""
+    """Rows of the table with present predictions."""
     with (HERE / "response.csv").open(encoding="utf-8", newline="") as stream:
         rows = list(csv.reader(stream))[1:]
     table = []
@@ -116,7 +116,7 @@ def again() -> list[list[str]]:
 
 
 def main() -> None:
-    """Measure, and add the waves to the table; or predict those in it."""
+    """Measure waves and add them to the table, or repeat its predictions."""
     path = HERE / "response.csv"
     if len(sys.argv) == 1:
         table = again()

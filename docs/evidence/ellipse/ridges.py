@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Static ridges along the motion on ellipses, at X = Y = 0, beside the prediction: ridges.csv.
+"""Static ridges along the motion on ellipses, at X = Y = 0, and their prediction: ridges.csv.
 
 python docs/evidence/ellipse/ridges.py
 

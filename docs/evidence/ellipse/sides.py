@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Make sides.csv anew: pressure of ridges along the motion beside the centre line, one minute.
+"""Rewrite sides.csv: pressure of ridges along the motion off the centre line, one minute.
 
     python docs/evidence/ellipse/sides.py
 
@@ -42,7 +42,7 @@ CONTACTS = (
     (1.0, 500.0, 10.0, (0.5, 0.25)),
     (2.0, 500.0, 10.0, (1.0, 0.5)),
 )
-# Lines that are told [semi-axis]: at the border little pressure is left to measure
+# Maximum distance of the lines [semi-axis]: near the edge the pressure is too small to measure
 REACH = 0.8
 COLUMNS = "ellipticity moes_m moes_l wavelength y T gain predicted_T predicted_gain".split()
 
@@ -91,7 +91,7 @@ def predicted(settings: Mapping[str, Mapping[str, Any]], wavelength: float) -> t
 def main() -> None:
     """Solve all ridges."""
     place = np.arange(PIXELS) / PIXELS
-    # even to the last bit
+    # symmetric to the last bit
     line = AMPLITUDE * np.cos(2.0 * np.pi * np.minimum(place, 1.0 - place))
     lines = [COLUMNS]
     for *contact, wavelengths in CONTACTS:

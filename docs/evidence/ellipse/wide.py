@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rough wide contacts: drawn and predicted, then simulated whole on square cells.
+"""Rough wide contacts: drawn and predicted, then fully simulated on square cells.
 
     python docs/evidence/ellipse/wide.py predict     writes wide_predicted.csv
-    python docs/evidence/ellipse/wide.py simulate    adds what is missing to wide_simulated.csv
+    python docs/evidence/ellipse/wide.py simulate    adds missing rows to wide_simulated.csv
     python docs/evidence/ellipse/wide.py compare     prints both
 
 M and L are those of the circle with the same dry inlet. Waves shorter than eight nodes are cut off.
@@ -30,8 +30,8 @@ HERE = Path(__file__).resolve().parent
 PREDICTED, SIMULATED = HERE / "wide_predicted.csv", HERE / "wide_simulated.csv"
 SEED = 20267
 POINTS = 193
-"""Nodes along X, on 4 a; as long across."""
-# lay: length of correlation along the motion over that across it
+"""Nodes along X, on 4 a."""
+# lay: correlation length along the motion over that across it
 LAYS = {"across": 0.125, "isotropic": 1.0, "along": 8.0}
 # lay, shear law and ellipticity of each case
 PLAN = (
@@ -46,7 +46,7 @@ Row = dict[str, Any]
 
 
 def drawn(number: int) -> Row:
-    """Draw a case: the rms height is what a prediction near a ratio drawn as well needs."""
+    """Draw a case, with the rms height that a prediction near a random ratio needs."""
     random = np.random.default_rng((SEED, number))
     lay, law, kappa = PLAN[number]
     row = {
@@ -68,7 +68,7 @@ def drawn(number: int) -> Row:
     if law == "newtonian":
         for _ in range(2):
             result = pyehl.predict(case_of(row)).mu_ratio
-            # the rise is of second order in the height
+            # the increase is of second order in the height
             factor = min(2.0, max(0.5, ((goal - 1.0) / max(result - 1.0, 0.01)) ** 0.45))
             row["rms_over_film"] = float(f"{row['rms_over_film'] * factor:.3g}")
     return row
@@ -122,7 +122,7 @@ def case_of(row: Row) -> pyehl.Case:
 
 
 def predicted(row: Row) -> Row:
-    """Predict a row, and the error that the model would state there."""
+    """Predict a row, with the stated error of the model."""
     summary = pyehl.predict(case_of(row)).summary
     ratio = summary["mu_ratio"]
     error = model_error(ratio, thins=row["law"] != "newtonian", ellipticity=row["ellipticity"])
@@ -162,7 +162,7 @@ def write(path: Path, rows: dict[str, Row]) -> None:
 
 
 def compare() -> list[Row]:
-    """Set predictions beside simulations: deviation, and whether the error covers it."""
+    """Compare predictions with simulations: deviation, and whether the error covers it."""
     result = []
     predictions = read(PREDICTED)
     for name, run in read(SIMULATED).items():
@@ -176,7 +176,7 @@ def compare() -> list[Row]:
 
 
 def main(what: str, *names: str) -> None:
-    """Predict, simulate (all or those named) or compare."""
+    """Predict, simulate (all or the named cases) or compare."""
     if what == "predict":
         rows = read(PREDICTED)
         for number in range(len(rows), len(PLAN)):
@@ -189,7 +189,7 @@ def main(what: str, *names: str) -> None:
         for name, row in read(PREDICTED).items():
             if name not in read(SIMULATED) and name in (names or [name]):
                 result = simulated(row)
-                # others may have been added meanwhile
+                # another process may have added rows meanwhile
                 rows = read(SIMULATED) | {name: result}
                 write(SIMULATED, dict(sorted(rows.items())))
                 print(name, rows[name], flush=True)

@@ -1,10 +1,10 @@
-"""What the constants of fortran/contact/domain.f90 were fitted to.
+"""Data that the constants of fortran/contact/domain.f90 were fitted to.
 
     python docs/evidence/errors/fit.py make     # flooded.csv, zero.csv, ratios.csv; three minutes
-    python docs/evidence/errors/fit.py show     # how the estimate covers them
+    python docs/evidence/errors/fit.py show     # coverage of the estimate
 
-Smooth contacts on domains of many sizes, all on meshes of one size, so that the grid error is the
-same and differences are due to the domain; and rough ones on two domains.
+Smooth contacts on domains of many sizes with one mesh size, so that differences are due to the
+domain and not to the grid; and rough contacts on two domains.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ import numpy as np
 from make import HERE, Row, domain_of, numbers, run
 
 MATERIALS = (0.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0)
-# Loads, and domains: inlet, outlet and half of the width, the flooded contact first. With a flooded
-# border in lengths of 1 a or, of thick films, of 0.3 of the default half of the width; in 1 a else.
+# Loads, and domains: inlet, outlet and half width, the flooded contact first, in a; with a flooded
+# border and a thick film, in 0.3 of the default half width.
 FLOODED = (
     (
         *(0.1, 0.3, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 12.0, 20.0, 40.0, 70.0, 120.0, 200.0, 350.0),
@@ -59,7 +59,7 @@ def options_of(point: tuple[float, float], border: str, mesh: float, domain: Row
 
 
 def domain_rows(what: tuple[str, tuple[float, float]]) -> list[Row]:
-    """Solve a contact on all domains; H_c and H_min empty where there is no solution."""
+    """Solve a contact on all domains; H_c and H_min are empty without a solution."""
     border, point = what
     unit = 1.0
     if border == "flooded":
@@ -98,9 +98,9 @@ def ratio_rows(wave: tuple[float, ...]) -> list[Row]:
 
 
 def shares_covered(border: str, name: str) -> np.ndarray:
-    """Change of a film by a domain over what the estimate says.
+    """Change of a film by a domain over its estimate.
 
-    Where one is above 0.03 % of H_c or 0.1 % of H_min, which jumps from node to node.
+    Only if one of them is above 0.03 % of H_c or 0.1 % of H_min, which jumps from node to node.
     """
     least = 3e-4 if name == "H_c" else 1e-3
     rows, each = numbers(border), len(BORDERS[border][1])
@@ -110,7 +110,7 @@ def shares_covered(border: str, name: str) -> np.ndarray:
         for row in others:
             if row[name] is None or flooded[name] is None:
                 continue
-            # the flooded contact has a domain, too
+            # the reference has a domain error as well
             said = row[f"{name}_error_domain"] - flooded[f"{name}_error_domain"]
             change = abs(flooded[name] - row[name])
             if max(change, said) > least * flooded[name]:
@@ -119,7 +119,7 @@ def shares_covered(border: str, name: str) -> np.ndarray:
 
 
 def ratio_shares() -> np.ndarray:
-    """Change of mu_r/mu_s by the domain of 4 a, over what that run says of it."""
+    """Change of mu_r/mu_s by the domain of 4 a, over the error that the run states."""
     rows = numbers("ratios")
     pairs = zip(rows[::2], rows[1::2], strict=True)
     return np.array(
@@ -128,7 +128,7 @@ def ratio_shares() -> np.ndarray:
 
 
 def show() -> None:
-    """Print how the estimates cover the tables."""
+    """Print the coverage of the estimates."""
     for border, name in itertools.product(BORDERS, ("H_c", "H_min")):
         result = shares_covered(border, name)
         print(
@@ -139,7 +139,7 @@ def show() -> None:
 
 
 def main() -> None:
-    """Make the tables with two workers, or print what they say."""
+    """Make the tables with two workers, and print the coverage."""
     if sys.argv[1] == "make":
         todo = [
             (

@@ -1,4 +1,4 @@
-"""Measure whether the errors that runs state hold: smooth contacts and rough ones at random points.
+"""Compare stated with true errors: smooth and rough contacts at random operating points.
 
     python docs/evidence/errors/make.py smooth     # smooth.csv, a minute
     python docs/evidence/errors/make.py rough      # rough.csv, forty minutes
@@ -27,7 +27,7 @@ from tables import numbers_of  # noqa: E402
 
 SEED = 20261
 SMOOTH, ROUGH = 80, 60
-# Nodes a side of the largest doubled domain
+# Nodes per side of the largest doubled domain
 FINEST = 1025
 QUANTITIES = ("H_c", "H_min", "P_max", "F")
 ROUGH_NAMES = (
@@ -38,16 +38,16 @@ Row = dict[str, Any]
 
 
 def run(options: dict[str, Any]) -> Row:
-    """Solve a case and give its summary."""
+    """Solve a case and return its summary."""
     with pyehl.Solver(pyehl.Case.from_text("", options)) as solver:
         solver.run()
         return solver.summary
 
 
 def grids_of(moes_m: float, width: float) -> list[int]:
-    """Three grids, of which the coarsest is fine enough to have a solution at that load."""
+    """Three grids, of which the coarsest is fine enough for a solution at this load."""
     for points in (65, 129, 257, 513):
-        # under thick films the inlet is as long as the film is high
+        # with thick films the inlet is as long as the film is thick
         if moes_m < 10.0 or 0.16 * moes_m * (width / (points - 1)) ** 2 <= 0.4:
             return [points, 2 * points - 1, 4 * points - 3]
     return []
@@ -59,7 +59,7 @@ def domain_of(point: Row) -> Row:
 
 
 def smooth_rows(point: Row) -> list[Row]:
-    """Solve a smooth contact on three grids, and the flooded contact: the domain doubled."""
+    """Solve a smooth contact on three grids, also on the doubled domain, nearly flooded."""
     grid = domain_of(point)
     grids = grids_of(point["contact.moes_m"], grid["x_outlet"] - grid["x_inlet"])
     doubled = {f"grid.{key}": 2.0 * grid[key] for key in ("x_inlet", "x_outlet", "y_extent")}
@@ -98,7 +98,7 @@ def smooth_points() -> Iterator[Row]:
 
 
 def rough_cases() -> Iterator[Row]:
-    """Draw waves and features: M from 20 to 640, L from 2 to 20, 0.1 to 0.75 of the film high."""
+    """Draw waves and features: M from 20 to 640, L from 2 to 20, 0.1 to 0.75 of the film."""
     generator = np.random.default_rng(SEED + 4)
     for _ in range(ROUGH):
         moes_m = math.exp(generator.uniform(math.log(20.0), math.log(640.0)))
@@ -119,7 +119,7 @@ def rough_rows(case: Row) -> list[Row]:
     """Run a rough contact on three grids with default settings, and on a finer one."""
     grid = domain_of({k: v for k, v in case.items() if k.startswith("contact.")})
     first = grids_of(case["contact.moes_m"], grid["x_outlet"] - grid["x_inlet"])[0]
-    # the finest of the three, and one of half its mesh size, give the limit
+    # the finest of the three grids, and one of half its mesh size, give the limit
     grids = [intervals * (first - 1) + 1 for intervals in (2, 3, 4)]
     rows = []
     for points in [*grids, 2 * grids[-1] - 1]:

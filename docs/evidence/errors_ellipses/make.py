@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measure whether what runs on elliptical contacts state holds, and what their cells are worth.
+"""Compare stated with true errors of elliptical contacts, and errors by the shape of the cells.
 
     python docs/evidence/errors_ellipses/make.py errors     # errors.csv
     python docs/evidence/errors_ellipses/make.py cells      # cells.csv
@@ -39,7 +39,7 @@ Row = dict[str, Any]
 
 
 def contact(kappa: float, moes_m: float, moes_l: float) -> Row:
-    """Keys of a contact of that shape, with the M and L of a round one."""
+    """Keys of a contact of ellipticity `kappa`, with the M and L of a round one."""
     ratio = float(elliprd(0.0, 1.0, kappa**2) / elliprd(0.0, kappa**2, 1.0))
     kernel = ellipse(ratio).kernel_ratio
     return {
@@ -50,7 +50,7 @@ def contact(kappa: float, moes_m: float, moes_l: float) -> Row:
 
 
 def solved(keys: Row) -> Row:
-    """Solve a case and give its summary."""
+    """Solve a case and return its summary."""
     with pyehl.Solver(pyehl.Case.from_text("", keys)) as solver:
         solver.run()
         return solver.summary
@@ -67,7 +67,7 @@ def domain_of(keys: Row) -> Row:
 
 
 def grids_of(kappa: float, moes_m: float, grid: Row) -> list[int]:
-    """Three grids, of which the coarsest is fine enough to have a solution."""
+    """Three grids, of which the coarsest is fine enough for a solution."""
     width = grid["x_outlet"] - grid["x_inlet"]
     for points in (33, 65):
         if missed(kappa, moes_m, width / (points - 1)) <= COARSEST:
@@ -76,7 +76,7 @@ def grids_of(kappa: float, moes_m: float, grid: Row) -> list[int]:
 
 
 def points() -> Iterator[tuple[str, float, float, float]]:
-    """Draw kappa from 1/10 to 10 and M from 2 to 600, both evenly in the logarithm; L to 20."""
+    """Draw kappa from 1/10 to 10 and M from 2 to 600, log-uniform, and L up to 20."""
     generator = np.random.default_rng(SEED)
     count = 0
     while count < POINTS:
@@ -134,7 +134,7 @@ def cells(point: tuple[float, float, float]) -> list[Row]:
     rows: list[Row] = []
     for ratio in RATIOS:
         for nodes in (65, 129, 257):
-            # as often halved as the nodes along the motion: the shape is that wanted or nearly so
+            # nodes that can be coarsened: the shape of the cells is approximately the wanted one
             across = 2 * round(sides * (nodes - 1) / (4.0 * ratio) / 32.0) * 32
             made = any((r["points"], r["points_y"]) == (nodes, across + 1) for r in rows)
             if made or across < 64 or nodes * across > MOST / 2:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tables of this folder say."""
+"""Evaluation of the tables of this folder."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def cells(rows: list[Row], point: tuple[float, float]) -> dict[float, tuple[floa
 def over_estimate(rows: list[Row], ratio: float) -> tuple[list[float], list[float]]:
     """Give true errors of H_c and H_min over the a-priori ones (fortran/contact/grid_error.f90).
 
-    In narrow contacts, on cells so many times as long across the motion as along it.
+    For narrow contacts on cells of a `ratio` of the lengths across and along the motion.
     """
     result: tuple[list[float], list[float]] = [], []
     narrow = [row for row in rows if row["kappa"] < 1.0 and row["ratio"] == ratio]

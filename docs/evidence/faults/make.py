@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What happens to killed runs, damaged states and mutated inputs: faults.csv.
+"""Outcomes of killed runs, damaged states and mutated inputs: faults.csv.
 
 python benchmarks/faults.py --kills 100 --inputs 1000 -o faults
 python docs/evidence/faults/make.py faults/faults.json

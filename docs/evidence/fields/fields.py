@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pressure and film of simulated rough surfaces beside the prediction, point by point: table.csv.
+"""Pressure and film of simulated rough surfaces against the prediction, point by point: table.csv.
 
     python docs/evidence/fields/fields.py NAME ... [--points N]     simulates and adds rows
     python docs/evidence/fields/fields.py                           prints the table
-    python docs/evidence/fields/fields.py NAME ... --lobes          the same of lobes.csv
+    python docs/evidence/fields/fields.py NAME ... --lobes          the same for lobes.csv
 
 NAME is a row of docs/evidence/prediction/cases.csv or of docs/evidence/thinning/rough.py. Eight
 moments of the last period are compared. One minute each on 513 x 513 nodes and one core.
@@ -48,7 +48,7 @@ MOMENTS = 8
 RINGS = {"r < 0.4": (0.0, 0.4), "0.4 to 0.7": (0.4, 0.7), "0.7 to 0.9": (0.7, 0.9)}
 STRIPS = {"X = -0.5": (-0.65, -0.35), "X = 0": (-0.15, 0.15), "X = 0.5": (0.35, 0.65)}
 SIDE = 0.5
-# Where the minimum film lies: X and |Y| [a]
+# Position of the minimum film: X and |Y| [a]
 LOBE_X, LOBE_Y = (0.1, 0.3), (0.88, 0.97)
 COLUMNS = (
     "name points place p_correlation p_slope p_square gamma film_correlation film_slope film_square"
@@ -70,7 +70,7 @@ class Moment:
 
 
 def case_of(name: str, points: int) -> tuple[pyehl.Case, Topography]:
-    """Give case and tile of a name."""
+    """Make case and tile of a name."""
     if name in rough.PLAN:
         case = rough.case_of(rough.PLAN[name]).with_options(f"grid.points={points}")
         settings = case.resolve()
@@ -100,13 +100,13 @@ def simulate(case: pyehl.Case, heights: Array | None = None) -> list[Moment]:
 
 
 def on_points(values: Array, moment: Moment, contact: RoughContact) -> Array:
-    """Values on the nodes of a simulation at the points of a contact."""
+    """Interpolate values from the nodes of a simulation to the points of a contact."""
     spline = RectBivariateSpline(moment.x, moment.y, values)
     return np.asarray(spline(contact.x, contact.y))
 
 
 def passage_of(case: pyehl.Case, tile: Topography) -> Model:
-    """Passage of a tile whose waves leak as on the grid of a case."""
+    """Model of the passage of a tile, with the numerical damping of the grid of a case."""
     settings = case.resolve()
     point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     ratio = float(settings["surface"]["velocity_ratio"])
@@ -117,9 +117,9 @@ def passage_of(case: pyehl.Case, tile: Topography) -> Model:
 def at(
     moment: Moment, passage: Model, start: float
 ) -> tuple[RoughContact, Array, Transfer, Spectrum]:
-    """Points of a contact at a moment, its film and pressure to first order, and its response.
+    """Points of a contact at a moment, film and pressure changes to first order, and response.
 
-    `start`: where the tile is at the time 0 [a].
+    `start`: position of the tile at time 0 [a].
     """
     (one,) = passage.surfaces
     way = (start + one.velocity_ratio * moment.time) * passage.operating.hertz_radius
@@ -132,7 +132,7 @@ def at(
 
 
 def compare(name: str, points: int, moments: list[Moment]) -> list[dict[str, Any]]:
-    """Statistics of a case at its places: what is left of second order, and of first."""
+    """Statistics of a case at its places: correlations, and fits of first and second order."""
     case, tile = case_of(name, points)
     passage, start = passage_of(case, tile), float(case.resolve()["surface"]["x_start"])
     parts: dict[str, list[Array]] = {}
@@ -178,9 +178,9 @@ def compare(name: str, points: int, moments: list[Moment]) -> list[dict[str, Any
 
 
 def lobes(name: str, points: int, moments: list[Moment]) -> list[dict[str, Any]]:
-    """Loss of film of first order in the side lobes and at the centre, simulated and predicted.
+    """Film reduction in the side lobes and at the centre, simulated and predicted to first order.
 
-    Correlation, and both rms [a^2/R].
+    Gives the correlation, and both rms values [a^2/R].
     """
     case, tile = case_of(name, points)
     passage, start = passage_of(case, tile), float(case.resolve()["surface"]["x_start"])
@@ -206,7 +206,7 @@ def lobes(name: str, points: int, moments: list[Moment]) -> list[dict[str, Any]]
 
 
 def add(new: list[dict[str, Any]], path: Path) -> None:
-    """Add rows to a table, in place of those of the same case and grid."""
+    """Add rows to a table, replacing those of the same case and grid."""
     old = []
     if path.exists():
         with path.open(newline="", encoding="utf-8") as stream:

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A dimple in a point contact beside a measurement and a simulation: python make.py.
+"""A dimple in a point contact, compared with a measurement and a simulation: python make.py.
 
-Runs four cases (some minutes of one processor), writes profiles.csv, table.csv, measured.png and
+Runs four cases (a few minutes on one processor), writes profiles.csv, table.csv, measured.png and
 simulated.png beside this file, and prints the tables of docs/validation.md. `python make.py show`
 makes table and pictures from the stored profiles; `python make.py NAME` runs the measured cases
-with a change of VARIANTS, and writes NAME.csv.
+with changes of VARIANTS, and writes NAME.csv.
 """
 
 from __future__ import annotations
@@ -36,16 +36,16 @@ DEPTH = {
     ("simulated", "-0.5"): 160e-9,
 }
 PIXEL = 1e-6
-# In Hertz radii: length of the tile, and its dimple behind the front
+# In Hertz radii: length of the tile, and distance of the dimple behind its front
 TILE = 6.0
 BEHIND = 0.5
-# Last place of the centre of the dimple, with a margin
+# Last position of the centre of the dimple, with a margin
 END = 0.95
 FRAMES = 0.03
 SATURATION = 340.0
-"""No colour of the interferometer beyond: what is measured there is a lower bound [nm]."""
-# In micrometres: half the flat part of the contact, half that with the constriction at the outlet,
-# the strips beside the dimple, their distance from its radius
+"""Range of the interferometer [nm]: measured values beyond it are lower bounds."""
+# In micrometres: half the flat part of the contact, half the contact with the outlet constriction,
+# length of the strips beside the dimple, and their distance from its edge
 PLATEAU, CONTACT, STRIP, DISTANCE = 110.0, 145.0, 60.0, 8.0
 # Changes of the measured cases by slide-to-roll ratio: keywords of `films`
 VARIANTS: dict[str, dict[str, dict[str, Any]]] = {
@@ -66,7 +66,7 @@ def read_profiles(path: Path) -> dict[Key, Array]:
 
 
 def centre(key: Key, profile: Array) -> float:
-    """Middle between the walls of the dimple [um]; NaN where none is in the contact."""
+    """Middle between the walls of the dimple [um]; NaN if it is not in the contact."""
     source, ssr, instant = key
     if (ssr, instant) == ("0", 1):
         return np.nan
@@ -79,7 +79,7 @@ def centre(key: Key, profile: Array) -> float:
 
 
 def dimple(radius: float, depth: float, length: float) -> pyehl.Topography:
-    """Give a tile with a dimple BEHIND its front: cos times Gauss up to its first zero, no rim."""
+    """Make a tile with a dimple: cosine times Gaussian up to the first zero, no rim."""
     count = round(length / PIXEL)
     place = (np.arange(count) - count // 2) * PIXEL
     t = np.hypot(place[:, None], place[None]) / (1.2 * radius)
@@ -111,10 +111,10 @@ def films(
         f"contact.slide_to_roll={slip}",
         f"time.steps={steps}",
         "time.estimate_error=.false.",
-        # fewer frames of a finer grid, for the memory
+        # fewer frames on a finer grid, to save memory
         f"output.frame_interval={FRAMES * (points - 1) / 256.0}",
         surface=dimple(RADIUS[ssr], depth or DEPTH[source, ssr], TILE * a),
-        # the friction of a single passage has no mean to settle
+        # the mean friction of a single passage does not settle
         check=False,
     )
     assert ds.attrs["status"] in ("converged", "not settled"), ds.attrs["status"]
@@ -132,7 +132,7 @@ def films(
 
 
 def mean(profile: Array, low: float, high: float) -> float:
-    """Mean film between two places."""
+    """Mean film between two positions."""
     x = np.linspace(low, high, 201)
     return float(np.interp(x, *profile).mean())
 
@@ -212,7 +212,7 @@ def vary(name: str, data: dict[Key, Array], result: dict[Key, Array]) -> None:
 
 
 def repeated(data: dict[Key, Array], ssr: str = "0") -> float:
-    """Half of the range of the film [nm] at the outlet that should be the same at all instants.
+    """Half the range [nm] of the outlet film, which should be the same at all instants.
 
     In pure rolling it is measured four times while the dimple is elsewhere.
     """
@@ -228,7 +228,7 @@ def repeated(data: dict[Key, Array], ssr: str = "0") -> float:
 
 @styled()
 def draw(source: str, data: dict[Key, Array], result: dict[Key, Array]) -> None:
-    """Draw the profiles of all instants; measured ones with how well they repeat."""
+    """Draw the profiles of all instants; measured ones with their repeatability."""
     figure = new_figure(PAGE, 3.4)
     axes = figure.subplots(2, 5, sharex=True, sharey=True)
     for line, ssr in zip(axes, RADIUS, strict=True):
@@ -252,7 +252,7 @@ def draw(source: str, data: dict[Key, Array], result: dict[Key, Array]) -> None:
 
 
 def lines(rows: Iterable[Sequence[str]], source: str) -> Iterator[str]:
-    """Give the table of docs/validation.md: an instant a line, theirs before ours."""
+    """Make the table of docs/validation.md: a row for each instant, theirs before ours."""
     names = ["minimum", "outlet", "plateau", "behind", "ahead"]
     names += ["dimple"] if source == "simulated" else []
     yield "| slide-to-roll ratio | instant | dimple at [µm] | " + " | ".join(names) + " |"
@@ -267,7 +267,7 @@ def lines(rows: Iterable[Sequence[str]], source: str) -> Iterator[str]:
 
 
 def main(arguments: Sequence[str]) -> None:
-    """Run the cases, or those on a finer grid, or show what is stored; write and print."""
+    """Run the cases, or variants, or use stored profiles; write and print."""
     data = read_profiles(HERE / "mourier.csv")
     if not arguments:
         simulate(data)

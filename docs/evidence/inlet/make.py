@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Smooth contacts that touch, at random, on ever finer grids: what their stated errors cover.
+"""Random smooth bodies in contact under grid refinement: coverage of their stated errors.
 
-    python docs/evidence/inlet/make.py run [CONTACTS]    adds what is missing to table.csv
+    python docs/evidence/inlet/make.py run [CONTACTS]    adds missing rows to table.csv
     python docs/evidence/inlet/make.py show              prints the tables of README.md
 
-Half a minute a contact of one core, most of it on the finest grid.
+A contact takes half a minute on one core, mostly on the finest grid.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ TABLE = HERE / "table.csv"
 SEED, CONTACTS = 47, 29
 GRIDS = (65, 129, 257, 513, 1025)
 FINEST = GRIDS[-1]
-# That of the program (fortran/steady/inlet.f90)
+# Factor of the program (fortran/steady/inlet.f90)
 FACTOR = 1.3
-# The finest grid is to resolve the inlet: (h/H^(2/3))^2 of it, with the mesh size of 4 a over 1024
+# Maximum (h/H^(2/3))^2, h = 4 a/1024: the finest grid must resolve the inlet
 RESOLVED = 0.02
 QUANTITIES = {"h_c_m": "h_c_error_m", "h_min_m": "h_min_error_m"} | {
     "contact_load_share": "contact_load_share_error"
@@ -42,7 +42,7 @@ Row = dict[str, Any]
 
 
 def contacts() -> Iterator[tuple[Row, Row]]:
-    """Keys of contacts that may touch, and what they are, without end."""
+    """Yield keys of random contacts that may touch, and their parameters, without end."""
     rng = np.random.default_rng(SEED)
     while True:
         keys: Row = {
@@ -67,7 +67,7 @@ def contacts() -> Iterator[tuple[Row, Row]]:
         lubricant = Lubricant.from_settings(settings)
         film = central_film(operating, lubricant)
         missed = (4.0 / (FINEST - 1)) ** 2 * (film / operating.film_scale) ** (-4.0 / 3.0)
-        # the film of a layer is that at ambient pressure
+        # a boundary film is given at ambient pressure
         thickness = layer * film * float(lubricant.density_ratio(operating.hertz_pressure))
         if not (RESOLVED / 30.0 < missed < RESOLVED and 1e-9 < thickness < 1e-6):
             continue
@@ -82,13 +82,13 @@ def contacts() -> Iterator[tuple[Row, Row]]:
 
 
 def run(count: int) -> None:
-    """Add what is missing of so many contacts."""
+    """Add missing rows of the first `count` contacts."""
     there = {(int(row["contact"]), int(row["points"])) for row in read()}
     for number, (keys, what) in zip(range(count), contacts(), strict=False):
         for points in GRIDS:
             if (number, points) in there:
                 continue
-            # where the film is close to the layer the edge of the touching zone moves slowly
+            # the edge of the solid contact converges slowly if the film is near the boundary film
             more = {"grid.points": points, "solver.max_cycles": 100}
             case = pyehl.Case.from_text("", keys | more)
             result = summary_of(pyehl.solve(case, check=False))
@@ -129,9 +129,9 @@ def read() -> list[dict[str, str]]:
 
 
 def covered(rows: list[dict[str, str]], name: str) -> dict[int, tuple[int, int, int]]:
-    """Of each grid the contacts with a stated error, those it covers, and those without a number.
+    """Count by grid the stated errors, those that cover the true error, and missing ones.
 
-    Against the finest grid, of the contacts that it solves and whose load share it states.
+    The reference is the finest grid; contacts without a result on it are not counted.
     """
     best = {
         row["contact"]: float(row[name])
@@ -152,7 +152,7 @@ def covered(rows: list[dict[str, str]], name: str) -> dict[int, tuple[int, int, 
 
 
 def by_two_grids(rows: list[dict[str, str]]) -> tuple[int, int]:
-    """How many of all central films a third of the change from the coarser grid covers."""
+    """How many true errors of central films a third of the change from the coarser grid covers."""
     films = {(r["contact"], int(r["points"])): float(r["h_c_m"] or "nan") for r in rows}
     stated = good = 0
     for coarse, points in pairwise(GRIDS[:-1]):
@@ -165,7 +165,7 @@ def by_two_grids(rows: list[dict[str, str]]) -> tuple[int, int]:
 
 
 def lines() -> list[str]:
-    """Give the table of README.md."""
+    """Make the table of README.md."""
     rows = read()
     names = {"h_c_m": "h_c", "h_min_m": "h_min", "contact_load_share": "load share"}
     found_lines = [
@@ -185,7 +185,7 @@ def lines() -> list[str]:
 
 
 def show() -> None:
-    """Print the table of README.md, and what two grids alone would cover."""
+    """Print the table of README.md, and the coverage of errors by two grids alone."""
     print("\n".join(lines()))
     good, stated = by_two_grids(read())
     print(f"by two grids alone: {good} of {stated}")

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Load shares at the end of a run against those of strict solutions on the same grid.
 
-python docs/evidence/inlet/share.py run       solves the contacts of share.csv anew
-python docs/evidence/inlet/share.py strict    and their strict solutions (hours)
+python docs/evidence/inlet/share.py run       solves the contacts of share.csv again
+python docs/evidence/inlet/share.py strict    repeats the strict solutions (hours)
 python docs/evidence/inlet/share.py show      prints the table of README.md
 """
 
@@ -20,7 +20,7 @@ import pyehl
 from pyehl.schema import summary_of
 
 TABLE = Path(__file__).parent / "share.csv"
-# The factor of the residual was chosen with the contacts of this seed
+# Seed of the contacts with which the factor of the residual was chosen
 CHOSEN = 5501
 STRICT = {"solver.accuracy": 0.002, "solver.max_cycles": 200}
 RESULTS = {
@@ -36,7 +36,7 @@ Row = dict[str, Any]
 
 
 def contacts(seed: int) -> Iterator[Row]:
-    """Keys of contacts that may touch, without end."""
+    """Yield keys of random contacts that may touch, without end."""
     rng = np.random.default_rng(seed)
     radius, modulus, alpha, viscosity = 0.0095, 2.26e11, 2e-8, 0.03
     while True:
@@ -98,14 +98,14 @@ def read() -> list[Row]:
 
 
 def is_compared(row: Row, which: str) -> bool:
-    """Whether a load share, before or now, and its error are known, beside a strict solution."""
+    """Whether a load share, before or now, has an error and a strict solution."""
     return row["strict_status"] == "converged" == row[f"{which}status"] and bool(
         row[f"{which}error"]
     )
 
 
 def lines() -> list[str]:
-    """Give the table of README.md."""
+    """Make the table of README.md."""
     heads = (
         "seed",
         "criterion",

@@ -20,7 +20,7 @@ python docs/evidence/machines/make.py narrow_sides    narrow_sides.csv
 python docs/evidence/machines/make.py sides    sides.csv
 python docs/evidence/machines/make.py cells    cells.csv
 python docs/evidence/machines/make.py border   border.csv
-python docs/evidence/machines/make.py show     prints the tables as the documents have them
+python docs/evidence/machines/make.py show     prints the tables of the documents
 """
 
 from __future__ import annotations
@@ -63,13 +63,13 @@ POINTS = (
     (12.0, 100.0, 8.0),
     (18.0, 2000.0, 10.0),
 )
-# As `blunt_spike` in fortran/case/case_grid.f90: alpha p_h up to L = 10 and above; an L
+# As `blunt_spike` in fortran/case/case_grid.f90: alpha p_h up to L = 10 and above; limit of L
 SHARP, LOW = (21.0, 19.0), 7.0
 CELLS = (
     *("seed", "number", "law", "ellipticity", "moes_l", "alpha_p_h", "points", "points_y"),
     *("total_cycles", "seconds", "long_status", "long_total_cycles", "long_seconds"),
 )
-# Algebraic over discretisation error: what the grids differ by is not that of the cycles
+# Algebraic over discretisation error, small so that grids do not differ by algebraic errors
 ACCURACY = 0.005
 SIDES = (
     *("ellipticity", "moes_m", "moes_l", "points", "points_y", "x_mesh", "y_mesh", "y_extent"),
@@ -78,8 +78,8 @@ SIDES = (
     *("H_c_error_domain", "H_min_error_domain", "seconds", "seconds_further", "seconds_square"),
 )
 
-# Domains of one mesh, 257 nodes on 4 a: border, inlet [a], sides over the half width; the first
-# one is the limit
+# Domains with one mesh size, 257 nodes on 4 a: border, inlet [a], sides over the half width; the
+# first one is the reference
 DOMAINS = (
     ("flooded", -4.5, 2.0),
     ("flooded", -2.5, 1.6),
@@ -95,8 +95,8 @@ BORDER = (
     *("ellipticity", "moes_m", "moes_l", "border", "x_inlet", "y_extent", "points", "points_y"),
     *("status", "H_c", "H_min", "H_c_error_domain", "H_min_error_domain"),
 )
-# Sides of narrow contacts over `side_scale` of fortran/contact/domain.f90, the first one the limit;
-# contacts of the seed above, most nodes between the middle and the sides
+# Sides of narrow contacts over `side_scale` of fortran/contact/domain.f90, the first one is the
+# reference; number of contacts drawn, and nodes per scale between the middle and the sides
 FURTHER = (10, 6, 4, 3, 2)
 NARROW_DRAWN, NARROW_NODES = 60, 32
 NARROW_SIDES = (
@@ -121,7 +121,7 @@ def _rounded(value: object) -> object:
 
 
 def read(name: str = "contacts.csv") -> list[Row]:
-    """Read a table; None where there is nothing."""
+    """Read a table; None for an empty cell."""
     with (HERE / name).open(encoding="utf-8", newline="") as stream:
         return [{k: _value(k, v) for k, v in row.items()} for row in csv.DictReader(stream)]
 
@@ -134,7 +134,7 @@ def _value(name: str, text: str) -> float | int | str | None:
 
 
 def collect(files: list[str], name: str = "contacts.csv") -> None:
-    """Write the contacts, and of ellipses the runs they are from."""
+    """Write the contacts, and for ellipses also the runs."""
     answers = [json.loads(Path(file).read_text(encoding="utf-8")) for file in files]
     rows = [row for answer in answers for row in answer["rows"]]
     for row in rows:
@@ -148,7 +148,7 @@ def collect(files: list[str], name: str = "contacts.csv") -> None:
 
 
 def measure_sides() -> None:
-    """Solve contacts as by default, with sides half as far again, and with cells half as long."""
+    """Solve contacts on default grids, with sides 1.5 times as far, with cells half as long."""
     rows = []
     for kappa, moes_m, moes_l in POINTS:
         keys = {"contact.radius_ratio": radius_ratio(kappa), "contact.moes_m": moes_m}
@@ -158,7 +158,7 @@ def measure_sides() -> None:
         extent = grid["y_extent"]
         row = timed(keys)
         across = row["points_y"] - 1
-        # the same cells, and rows that can be halved
+        # the same cells, and rows that can be coarsened
         rows_further = 64 * math.ceil(1.5 * across / 64)
         wider = {"grid.y_extent": extent * rows_further / across, "grid.points_y": rows_further + 1}
         further = timed(keys | wider)
@@ -180,7 +180,7 @@ def measure_cells() -> None:
         sharp = alpha_p_h > SHARP[row["moes_l"] > 10.0]
         if row["ellipticity"] < 5.0 or row["moes_l"] > 15.0 or not sharp:
             continue
-        # by default long below this L, else short
+        # the default cells are long below this L, else short
         across = (row["points_y"] - 1) * (2 if row["moes_l"] < LOW else 1)
         keys = dict(contact.values) | SETTINGS | {"grid.points": row["points"]}
         short = timed(keys | {"grid.points_y": across + 1})
@@ -192,7 +192,7 @@ def measure_cells() -> None:
 
 
 def cells() -> list[str]:
-    """Time on long cells over that on short ones, by L."""
+    """Make the table of times on long cells over those on short ones, by L."""
     lines = [
         "| L | contacts | no solution on long cells | faster on long cells | median ratio "
         "of times, long over short cells |",
@@ -230,7 +230,7 @@ def measure_border() -> None:
 
 
 def by_border() -> list[str]:
-    """Table of docs/theory/border.md: changes of H_c against the limit, and what is stated."""
+    """Table of docs/theory/border.md: changes of H_c against the reference, and stated errors."""
     lines = ["| κ | P = 0 | stated | flooded border | stated |", "|---|---|---|---|---|"]
     groups: dict[float, dict[str, list[tuple[float, float]]]] = {}
     limit = math.nan
@@ -272,7 +272,7 @@ def measure_narrow_sides() -> None:
 
 
 def narrow_sides() -> list[str]:
-    """Largest changes by nearer sides, by border and distance."""
+    """Maximum changes by nearer sides, by border and distance."""
     rows = read("narrow_sides.csv")
     limits = {
         (row["number"], row["border"]): row
@@ -365,7 +365,7 @@ MEASURE = {
 
 
 def main(words: list[str]) -> None:
-    """Do what is asked for."""
+    """Run a command."""
     if words[0] == "read":
         collect(words[1:])
     elif words[0] == "lines":

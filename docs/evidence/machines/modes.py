@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Local mode analysis of a sweep on cells that are longer across the motion than along it.
+"""Local mode analysis of a relaxation sweep on cells that are longer across the motion.
 
 python docs/evidence/machines/modes.py    prints the table of docs/theory/relaxation.md
 
-The error exp(i (theta_x i + theta_y j)) of the pressure, with a conductance that does not vary, the
-density that of no pressure, and changes of all lines from one state (Jacobi). A sweep multiplies it
-by 1 - omega S D/L: S belongs to the whole equation, D to the change that a unit makes (1, or a
-dipole), L to the line system, which knows the deflection up to two nodes away on the line alone.
+For an error exp(i (theta_x i + theta_y j)) of the pressure, constant conductance, the density at
+ambient pressure, and changes of all lines from one state (Jacobi). A sweep multiplies the error by
+1 - omega S D/L: S is the symbol of the equation, D that of the change of a unit (1, or a dipole), L
+that of the line system, which includes the deflection up to two nodes away on the same line.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ CELLS = 1.0, 1.41, 2.0, 2.8, 4.0
 CONDUCTANCES = 0.0, 0.01, 0.1
 FACTOR = 2.0 / np.pi**2
 DIPOLE, SINGLE, STRONG, SWITCH = 0.7, 0.5, 10.0, 0.1
-"""Factors of the changes, and switch, of fortran/multigrid/relaxation.f90."""
+"""Relaxation factors, and switch, of fortran/multigrid/relaxation.f90."""
 LONG = 1.6
-"""Shares of a dipole go with 1/h^2 on longer cells, of fortran/multigrid/workspace.f90."""
+"""Ratio above which the weights of a dipole scale with 1/h^2 (fortran/multigrid/workspace.f90)."""
 NODES = 40
 ALIASES = 20
 REACH = range(-2, 3)
@@ -45,26 +45,26 @@ def deflection(x: Field, y: Field, ratio: float) -> Field:
 
 
 def factor(x: Field, y: Field, ratio: float, conductance: float, *, dipole: bool) -> Field:
-    """How much of an error a sweep leaves; conductance is eps/h_y^2, the unit of length h_x."""
-    # in units of h_x, where the wedge term is 1 and so is the deflection: both go with 1/h_x
+    """Amplification factor of a sweep; conductance is eps/h_y^2, the unit of length h_x."""
+    # in units of h_x; the wedge term and the deflection both scale with 1/h_x
     eps = conductance * ratio**2
     power = 2 if ratio > LONG else 1
-    shares = np.array([ratio**power, 1.0]) / (2.0 * (1.0 + ratio**power)) * dipole
-    row = 1.0 - 2.0 * shares[0] * np.cos(x)
-    change = row - 2.0 * shares[1] * np.cos(y)
+    weights = np.array([ratio**power, 1.0]) / (2.0 * (1.0 + ratio**power)) * dipole
+    row = 1.0 - 2.0 * weights[0] * np.cos(x)
+    change = row - 2.0 * weights[1] * np.cos(y)
     line = sum(
         np.cos(d * x)
         * (
             coefficient(d, 0, ratio)
-            - shares[0] * (coefficient(d - 1, 0, ratio) + coefficient(d + 1, 0, ratio))
-            - 2.0 * shares[1] * coefficient(d, 1, ratio)
+            - weights[0] * (coefficient(d - 1, 0, ratio) + coefficient(d + 1, 0, ratio))
+            - 2.0 * weights[1] * coefficient(d, 1, ratio)
         )
         for d in REACH
     )
     wedge: Symbol = 1.5 - 2.0 * np.exp(-1j * x) + 0.5 * np.exp(-2j * x)
     along, across = 4.0 * np.sin(0.5 * x) ** 2, 4.0 * np.sin(0.5 * y) ** 2 / ratio**2
     whole = -eps * (along + across) - wedge * deflection(x, y, ratio)
-    known = -eps * (along * row + 2.0 * (shares[1] + row) / ratio**2) - wedge * line
+    known = -eps * (along * row + 2.0 * (weights[1] + row) / ratio**2) - wedge * line
     omega = DIPOLE
     if not dipole:
         omega = (SINGLE + eps / STRONG) / (1.0 + eps / STRONG)

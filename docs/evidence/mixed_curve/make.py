@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Make curve.csv of a curve through mixed film, or print the table of its page.
+"""Make curve.csv of a curve through mixed lubrication, or print the table of its page.
 
-python docs/evidence/mixed_curve/make.py FOLDER     of `pyehl stribeck`, as the page has it
+python docs/evidence/mixed_curve/make.py FOLDER     from the folder of `pyehl stribeck`
 python docs/evidence/mixed_curve/make.py picture    draws curve.png
-python docs/evidence/mixed_curve/make.py
+python docs/evidence/mixed_curve/make.py            prints the table
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def rows() -> list[dict[str, str]]:
 
 
 def lines() -> list[str]:
-    """Give the points with a full simulation: prediction, then simulation."""
+    """Make the table of the points with a full simulation: prediction, then simulation."""
     result = [
         "| speed [m/s] | Λ | load share | simulated | area share | simulated | minimum film [nm] "
         "| simulated |",
@@ -61,7 +61,7 @@ def lines() -> list[str]:
 def draw() -> Figure:
     """Draw the curve of the table."""
     table = pd.read_csv(HERE / "curve.csv")
-    # what the table leaves out: of the friction, errors; errors of the minimum film
+    # columns that the table does not have
     table["mu_smooth"] = table["mu"] / table["mu_ratio"]
     for name in ("mu_ratio_spread", "mu_ratio_model_error", "mu_ratio_ehl_error", "theta_2"):
         table[name] = float("nan")
@@ -72,7 +72,7 @@ def draw() -> Figure:
 
 
 def main() -> None:
-    """Do what the arguments say."""
+    """Run the command of the arguments."""
     if sys.argv[1:] == ["picture"]:
         style.save(draw(), HERE / "curve.png", style.DPI)
         return

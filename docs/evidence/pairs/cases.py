@@ -62,17 +62,17 @@ def case(row: dict[str, Any], points: int = 513) -> pyehl.Case:
 
 
 def length_over_a(row: dict[str, Any], side: str) -> float:
-    """Length of a tile [a]: whole numbers of both pass in the common period."""
+    """Length of a tile [a]: a whole number of each passes in the common period."""
     slip = 0.5 * row["slide_to_roll"]
     velocity = 1.0 + slip if side == "first" else 1.0 - slip
     return float(velocity * row["period"] / row[f"{side}_tiles"])
 
 
 def tile(row: dict[str, Any], side: str) -> Topography | None:
-    """Surface of a row in memory, None for a wave: fractal, or worn, and waves cut off.
+    """Surface of a row in memory: fractal, or worn, without short waves; None for a wave.
 
-    Rms height before that [a^2/R]. A worn surface has lost the part of its peaks above 0.4 of the
-    rms height by a smooth curve.
+    The rms height is that before the changes [a^2/R]. A worn surface has its peaks above 0.4 of the
+    rms height removed by a smooth curve.
     """
     if row[side] == "wave":
         return None

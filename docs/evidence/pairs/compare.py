@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compare the predictions that were made first with the simulations of the same pairs.
+"""Compare earlier predictions with the later simulations of the same pairs.
 
 Writes table.csv and pairs.png beside this file and prints deviations and coverage:
 
@@ -29,7 +29,7 @@ def read(name: str) -> dict[str, dict[str, str]]:
 
 
 def compared() -> list[dict[str, Any]]:
-    """Put the rows together of all pairs whose simulation converged."""
+    """Merge the rows of all pairs whose simulation converged."""
     before, simulated = read("predicted.csv"), read("simulated.csv")
     table = []
     for row in rows():

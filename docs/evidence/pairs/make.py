@@ -3,7 +3,7 @@
 
 python docs/evidence/pairs/make.py [NAME ...] [--points N] [--output FILE]
 
-Without names: all rows that are not in the file.
+Without names: all rows that the file does not have.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Predict the rows of cases.csv that are not in predicted.csv, before they are simulated.
+"""Predict the rows of cases.csv that predicted.csv does not have, before their simulation.
 
 python docs/evidence/pairs/predict.py
 """
@@ -13,7 +13,7 @@ from cases import HERE, case, rows, surfaces
 
 
 def main() -> None:
-    """Predict and add to the table; what is in it stays."""
+    """Add missing predictions to the table; existing rows stay."""
     place = HERE / "predicted.csv"
     names = ["name", "status", "mu_ratio", "model_error", "position_error"]
     if not place.is_file():

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The record of ``python examples/zhang2019/reproduce.py``: python make.py FOLDER.
 
-Runs the tier ``--quick`` and, of ``--full``, Fig. 6 and Table 2 up to 513 nodes a side (half an
-hour of one processor), writes table.csv, findings.csv and pictures beside this file, and prints the
-tables of docs/validation.md and README.md. Started again with the folder it goes on; without one it
-prints what is stored.
+Runs the tier ``--quick`` and, of ``--full``, Fig. 6 and Table 2 up to 513 nodes per side (half an
+hour on one processor), writes table.csv, findings.csv and pictures beside this file, and prints the
+tables of docs/validation.md and README.md. A second run with the same folder continues the first;
+without a folder the script prints the stored tables.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from driver import PIECES, reproduce
 from piece import FULL, QUICK, Level, Result
 
 HERE = Path(__file__).resolve().parent
-# Not 1025 nodes a side: they take longer than all the rest
+# Without 1025 nodes per side, which take longer than all the rest
 RUNS: tuple[tuple[Level, Sequence[str]], ...] = (
     (QUICK, tuple(PIECES)),
     (replace(FULL, meshes=(257, 513)), ("figure 6", "table 2")),
@@ -37,7 +37,7 @@ HEAD = (
 
 
 def grid_of(name: str, piece: str, level: Level) -> str:
-    """Nodes per side that a number is from, '' where no grid is in it."""
+    """Nodes per side of the grid of a number; '' for none."""
     if match := re.search(r"(\d+) x \1 nodes", name):
         return match[1]
     if piece == "figure 2":
@@ -88,7 +88,7 @@ def make(folder: Path) -> None:
     findings: list[tuple[str, ...]] = []
     for level, names in RUNS:
         for result in reproduce(names, level, folder / level.name, jobs=1):
-            # meshes of both tiers are there once
+            # results on meshes of both tiers appear once
             known = {row[1:] for row in rows}
             rows += (row for row in rows_of(level, result) if row[1:] not in known)
             findings += [(level.name, result.name, f.title, f.text) for f in result.findings]
@@ -113,7 +113,7 @@ def finding(row: Mapping[str, str]) -> str:
 
 
 def main(arguments: Sequence[str]) -> None:
-    """Run where a folder is given; print what is stored."""
+    """Run if a folder is given; print the stored tables."""
     if arguments:
         make(Path(arguments[0]).resolve())
     text = [*HEAD, *(line(row) for row in read("table.csv") if row["piece"] != "table 1")]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-r"""Make campaign.csv of a campaign of `benchmarks/mixed.py`.
+r"""Make campaign.csv from a campaign of `benchmarks/mixed.py`.
 
 python benchmarks/mixed.py --contacts 100 --simulate 100 --seed 1 -o mixed.json
 python docs/evidence/partial/campaign.py mixed.json

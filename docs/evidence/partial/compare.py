@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compare the predictions that were made first with the simulations of the same contacts.
+"""Compare earlier predictions with the later simulations of the same contacts.
 
 Writes table.csv beside this file and prints deviations and coverage:
 
@@ -24,7 +24,7 @@ def read(name: str) -> dict[str, dict[str, str]]:
 
 
 def compared() -> list[dict[str, Any]]:
-    """Put the rows together of all contacts whose simulation converged."""
+    """Merge the rows of all contacts whose simulation converged."""
     before, simulated = read("predicted.csv"), read("simulated.csv")
     table = []
     for row in rows():
@@ -59,8 +59,8 @@ def compared() -> list[dict[str, Any]]:
 
 
 def report(table: list[dict[str, Any]]) -> None:
-    """Print deviations and coverage: of those that were in view, and of those predicted blind."""
-    for which, letter in (("in view", "c"), ("blind", "d")):
+    """Print deviations and coverage of cases used in development and of blind predictions."""
+    for which, letter in (("development", "c"), ("blind", "d")):
         part = [row for row in table if row["name"].startswith(letter)]
         off, area = (
             np.array([row[f"{name}_now"] - row[name] for row in part])
@@ -69,7 +69,7 @@ def report(table: list[dict[str, Any]]) -> None:
         friction = np.array([row["mu_now"] / row["mu"] - 1.0 for row in part])
         print(
             f"{which}: {len(part)} contacts; load share off by {off.mean():+.3f} in the mean, "
-            f"{np.sqrt(np.mean(off**2)):.3f} rms, {np.abs(off).max():.3f} at the most; "
+            f"{np.sqrt(np.mean(off**2)):.3f} rms, {np.abs(off).max():.3f} at most; "
             f"area {np.sqrt(np.mean(area**2)):.3f} rms; mu "
             f"{100 * np.sqrt(np.mean(friction**2)):.0f} % rms; "
             f"{sum(row['covered'] for row in part)} covered"

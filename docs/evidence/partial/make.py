@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Simulate the rows of cases.csv that are not in simulated.csv, up to some minutes each.
+"""Simulate the rows of cases.csv that simulated.csv does not have, up to several minutes each.
 
 python docs/evidence/partial/make.py [NAME ...]
 """

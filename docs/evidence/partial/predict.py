@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Predict the rows of cases.csv that are not in predicted.csv, before they are simulated.
+"""Predict the rows of cases.csv that predicted.csv does not have, before their simulation.
 
 python docs/evidence/partial/predict.py
 """
@@ -26,7 +26,7 @@ COLUMNS = (
 
 
 def main() -> None:
-    """Predict and add to the table; what is in it stays."""
+    """Add missing predictions to the table; existing rows stay."""
     place = HERE / "predicted.csv"
     if not place.is_file():
         place.write_text(",".join(("name", "status", *COLUMNS)) + "\n", encoding="utf-8")

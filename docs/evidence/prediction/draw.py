@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draw the cases n01 to n14 and predict them: python docs/evidence/prediction/draw.py.
 
-Writes committed.csv: operating points and surfaces drawn at random, with the prediction that was
-there before they were simulated. Waves below a/16 are cut, so that 513 x 513 nodes resolve all.
+Writes committed.csv: random operating points and surfaces, with the prediction made before their
+simulation. Waves below a/16 are cut off, so that 513 x 513 nodes resolve all.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def predicted(row: dict[str, Any]) -> float:
 
 
 def drawn(number: int, random: np.random.Generator) -> dict[str, Any]:
-    """Draw a case: its rms height is such that the prediction is near a ratio drawn as well."""
+    """Draw a case, with the rms height that a prediction near a random ratio needs."""
     moes_m = float(120.0 * (2500.0 / 120.0) ** random.random())
     moes_l = float(random.uniform(4.0, 16.0))
     speed = (moes_l / (ALPHA * MODULUS)) ** 4 / 2.0
@@ -63,7 +63,7 @@ def drawn(number: int, random: np.random.Generator) -> dict[str, Any]:
     }
     for _ in range(6):
         ratio = predicted(row)
-        # the rise is of second order in the height
+        # the increase is of second order in the height
         row["rms_height"] *= min(2.0, max(0.5, ((goal - 1.0) / max(ratio - 1.0, 0.01)) ** 0.4))
     return {k: float(f"{v:.6g}") if isinstance(v, float) else v for k, v in row.items()}
 

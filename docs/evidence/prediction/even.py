@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What part of the pressure does not change its sign with the roughness: ``even.csv``.
+"""The part of the pressure that is even in the roughness: ``even.csv``.
 
 python docs/evidence/prediction/even.py [NAME ...] [--points N]
 
-Cases of cases.csv are simulated with their surface as it is and upside down, some minutes each. The
+Cases of cases.csv are simulated with their surface and with its negative, several minutes each. The
 mean of the two pressures, less that of the smooth contact, is compared within half a Hertz radius
-with the pressure of second order (pyehl/prediction/response.py), made from the half difference
-of the two: the standard deviations, the correlation, and what each adds to the mean of exp(b P1)
-over b times that mean.
+with the second-order pressure (pyehl/prediction/response.py) computed from half the difference of
+the two: standard deviations, correlation, and b times the mean of each pressure weighted by
+exp(b P1).
 """
 
 from __future__ import annotations
@@ -28,17 +28,17 @@ from pyehl.theory.transport import stiffness
 
 NAMES = ("c16m200", "m200l10")
 COLUMNS = "name points positions std_even std_second correlation effect_even effect_second".split()
-# Cycles of the smooth contact at most, every so many-th step of the last share of a run, and the
-# part of the contact that is looked at
+# Maximum number of cycles of the smooth contact; stride of the steps, and last fraction of a run,
+# that are compared; radius of the compared part of the contact [a]
 BEFORE, EVERY, LAST, RADIUS = 30, 16, 0.18, 0.5
 Array = NDArray[np.float64]
 Fields = list[tuple[Array, Array]]
 
 
 def fields(row: dict[str, Any], factor: float) -> tuple[Array, Array, Fields]:
-    """X, Y and P, H of some steps of a run, its surface times a factor.
+    """X, Y and P, H of some steps of a run with its surface times a factor.
 
-    The first ones are from before the surface comes, those of the smooth contact.
+    The first fields are those of the smooth contact, before the surface arrives.
     """
     one_grid = case(row).with_options("time.estimate_error=.false.")
     with solver_on_heights(one_grid, {"surface": surface(row).heights * factor}) as solver:
@@ -51,7 +51,7 @@ def fields(row: dict[str, Any], factor: float) -> tuple[Array, Array, Fields]:
 
 
 def compared(row: dict[str, Any]) -> list[str]:
-    """Give the line of a case."""
+    """Make the row of a case."""
     settings = case(row).resolve()
     operating, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     x, y, result = fields(row, 1.0)
@@ -95,7 +95,7 @@ def compared(row: dict[str, Any]) -> list[str]:
 
 
 def main() -> None:
-    """Simulate, and write the table."""
+    """Simulate and write the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="*", default=NAMES)
     parser.add_argument("--points", type=int, help="nodes per side in place of those of the table")

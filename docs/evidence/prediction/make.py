@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Simulate rows of cases.csv anew, two to five minutes each on one core.
+"""Simulate rows of cases.csv again, two to five minutes each on one core.
 
 python docs/evidence/prediction/make.py NAME ... [--points N]
 """
@@ -13,7 +13,7 @@ from pyehl.solver import solver_on_heights
 
 
 def main() -> None:
-    """Simulate and print beside what stands in the table."""
+    """Simulate, and print the results beside those of the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="+")
     parser.add_argument("--points", type=int, help="nodes per side in place of those of the table")
@@ -29,7 +29,7 @@ def main() -> None:
             row["name"],
             summary["status"],
             summary["mu_ratio"],
-            # without what the grid leaves out, as in the table
+            # without the error from omitted waves, as in the table
             summary["mu_ratio_error_grid"],
             summary["mu_ratio_error_stop"],
             "table, 513 x 513 nodes:",

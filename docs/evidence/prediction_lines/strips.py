@@ -5,8 +5,8 @@
     python docs/evidence/prediction_lines/strips.py simulate [NAME ...]     adds to simulated.csv
     python docs/evidence/prediction_lines/strips.py compare     prints both
 
-The strips are on 257 nodes along the motion, h = b/64, and a row on 1025. Waves shorter than eight
-nodes of the strips are cut off. A simulation takes one to three minutes on one core.
+The strips have 257 nodes along the motion, h = b/64, a single row has 1025. Waves shorter than
+eight nodes of the strips are cut off. A simulation takes one to three minutes on one core.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from pyehl.theory.lubricant import Lubricant
 HERE = Path(__file__).parent
 DOMAIN = "x_inlet = -2.5 x_outlet = 1.5"
 SHORTEST = 8.0
-"""Shortest wave of a fractal surface: b over this."""
+"""b over the shortest wave of a fractal surface."""
 EYRING = "shear_law = 'eyring' eyring_stress ="
 CARREAU = "shear_law = 'carreau' carreau_exponent = 0.6 carreau_stress ="
 PIXELS = 64
@@ -68,7 +68,7 @@ PLAN: dict[str, Row] = {
     "e6": Row(25.0, 14.0, 0.98, 0.3, (0.5, 1.0), law=f"{EYRING} 5e6"),
 }
 DRAWN = 20261128, 8
-"""Seed and number of strips that were drawn, after the plan above was simulated."""
+"""Seed and number of random strips, added after the simulation of the plan above."""
 
 
 def drawn(seed: int, count: int) -> dict[str, Row]:
@@ -115,7 +115,7 @@ def case_of(row: Row) -> tuple[pyehl.Case, list[Topography]]:
     film = formula_film(contact_of(settings), Lubricant.from_settings(settings))
     b = line.half_width
     if row.wave is not None and not varies:
-        # its rms is amplitude over the root of two
+        # rms is amplitude/sqrt(2)
         amplitude = row.rms * np.sqrt(2.0) * film / line.film_scale
         return case.with_options(
             {"surface.amplitude": float(f"{amplitude:.6g}"), "surface.wavelength_x": row.wave[0]}
@@ -127,7 +127,7 @@ def case_of(row: Row) -> tuple[pyehl.Case, list[Topography]]:
 
 
 def _wave(wave: tuple[float, float], amplitude: float, b: float) -> Topography:
-    """Make a wave; across the way that it does not vary on its tile is b long."""
+    """Make a wave; its tile has the length b in a direction without variation."""
     size = [length or 1.0 for length in wave]
     phase = [2.0 * np.pi * bool(length) * np.arange(PIXELS) / PIXELS for length in wave]
     heights = amplitude * np.cos(phase[0][:, np.newaxis] + phase[1])
@@ -135,7 +135,7 @@ def _wave(wave: tuple[float, float], amplitude: float, b: float) -> Topography:
 
 
 def _fractal(seed: int, rms: float, b: float) -> Topography:
-    """Make a tile of b x b without its short waves, of an rms height [m]."""
+    """Make a tile of b x b without its short waves, with an rms height [m]."""
     from pyehl.surfaces import filtered  # noqa: PLC0415
 
     tile = filtered(fractal(PIXELS, b, b, rms_height=rms, hurst=0.8, seed=seed), b / SHORTEST)
@@ -194,7 +194,7 @@ def main(arguments: list[str]) -> None:
         for name in names or PLAN:
             if name not in read(HERE / "simulated.csv"):
                 row = simulated(PLAN[name])
-                # others may have been added meanwhile
+                # another process may have added rows meanwhile
                 write(HERE / "simulated.csv", read(HERE / "simulated.csv") | {name: row})
     elif what == "compare":
         said, result = read(HERE / "committed.csv"), read(HERE / "simulated.csv")

@@ -3,14 +3,14 @@
 
     python docs/evidence/response/fit.py [response.json]
 
-reads ``waves.csv`` and ``ridges.csv``, writes ``pyehl/theory/response.json`` (or the file that is
-named) and ``residuals.csv``, and prints the residuals.
+reads ``waves.csv`` and ``ridges.csv``, writes ``pyehl/theory/response.json`` (or the named file)
+and ``residuals.csv``, and prints the residuals.
 
-T = driven + free F, where the tables have the base of G in free, and F = exp(i k_x (U - 1) X_0 -
-c (U - 1) X_1)/(1 + z): ln|z| and arg z/c are polynomials in
-s = ln(nabla_2)/2, c = |k_x|/|q|, ln(L/10), ln(M/1000)/2 and U - 1, and so is X_0. Terms with
-M h^2, h the grid spacing, take the error of the grids and are left out of the result, which holds
-for h = 0. Least squares of T at all X (Gauss-Newton), the larger residuals with more weight.
+T = driven + free F, where the tables include the base of G in free, and F = exp(i k_x (U - 1) X_0 -
+c (U - 1) X_1)/(1 + z). ln|z|, arg z/c and X_0 are polynomials in s = ln(nabla_2)/2,
+c = |k_x|/|q|, ln(L/10), ln(M/1000)/2 and U - 1. Terms in M h^2, h the grid spacing, represent the
+grid error; the result omits them and holds for h = 0. Least squares of T at all X (Gauss-Newton),
+with more weight for larger residuals.
 """
 
 from __future__ import annotations
@@ -31,16 +31,16 @@ HERE = Path(__file__).resolve().parent
 TARGET = HERE.parents[2] / "pyehl" / "theory" / "response.json"
 Array = NDArray[np.float64]
 
-# s is held within these; beyond them z goes on as nabla_2 to the power SLOPE
+# s is clipped to this range; beyond it z is proportional to nabla_2 to the power SLOPE
 PARAMETER, SLOPE = (-0.7, 1.6), 1.35
-# Coarse grids count where a wave has this many nodes, fine ones with fewer
+# Minimum number of nodes per wavelength by grid: more on coarse grids
 NODES = {257: 14.0, 513: 10.0, 1025: 8.0}
-# The longest wave along the motion that is fitted [a]: longer ones feel the edge of the contact
+# Longest fitted wave along the motion [a]: the edge of the contact affects longer ones
 LONGEST = 3.0
 WEIGHT_OF_RIDGES = 3.0
 # M L at which the leak in the inlet, LEAK/(M L), is 1
 LEAK = 300.0
-# Of the coefficients, some of which few data hold
+# Penalty on the coefficients, some of which few data determine
 PENALTY = 0.01
 # Scales of the variables, so that one penalty suits all terms
 SCALES = (1.0, 1.0, 1.5, 1.5, 5.0, 1.0, 1.0)
@@ -50,7 +50,7 @@ def _terms() -> list[tuple[int, ...]]:
     """Powers of s, c, ln(L/10), ln(M/1000)/2, U - 1, the leak and M h^2."""
 
     def upto(order: int, *others: int) -> list[tuple[int, ...]]:
-        """All terms in s and c up to an order, times powers of the others; those left out are 0."""
+        """All terms in s and c up to an order, times powers of the others, by default 0."""
         rest = (*others, 0, 0, 0, 0, 0)[:5]
         return [(i, j, *rest) for i in range(order + 1) for j in range(order + 1) if i + j <= order]
 
@@ -67,10 +67,10 @@ def _terms() -> list[tuple[int, ...]]:
         result += upto(1, *powers)
     for powers in ((1, 0, 2), (0, 1, 2)):
         result += upto(0, *powers)
-    # what the leak in the inlet does at low M L, and nothing elsewhere
+    # effect of the leak in the inlet, only at low M L
     result += upto(5, 0, 0, 0, 1) + upto(4, 0, 0, 0, 2)
     result += upto(4, 0, 0, 1, 1) + upto(4, 0, 0, 2, 1) + upto(3, 0, 0, 1, 2)
-    # ridges do not move: U is nothing to them
+    # ridges do not depend on U
     result = [(i, j + (e > 0), a, b, e, *rest) for i, j, a, b, e, *rest in result]
     return result + upto(1, 0, 0, 0, 0, 1)
 
@@ -95,7 +95,7 @@ GROWTH = [
 
 @dataclass(frozen=True, slots=True)
 class Data:
-    """Waves (m,) and what was measured of them at several X (m, 3)."""
+    """Waves (m,) and their measurements at several X (m, 3)."""
 
     m: Array
     l: Array  # noqa: E741
@@ -108,7 +108,7 @@ class Data:
     free: NDArray[np.complex128]
 
     def chosen(self, mask: NDArray[np.bool_]) -> Data:
-        """Take some of the waves."""
+        """Select some of the waves."""
         return Data(*(getattr(self, name)[mask] for name in self.__slots__))
 
     @property
@@ -123,7 +123,7 @@ class Data:
 
     @property
     def variables(self) -> tuple[Array, ...]:
-        """Give s (clipped), c, ln(L/10), ln(M/1000)/2, U - 1, the leak LEAK/(M L), M h^2."""
+        """Variables s (clipped), c, ln(L/10), ln(M/1000)/2, U - 1, the leak LEAK/(M L), M h^2."""
         s = 0.5 * np.log(2.0 * np.pi / self.q * np.sqrt(self.m / self.l))
         return (
             np.clip(s, *PARAMETER),
@@ -137,7 +137,7 @@ class Data:
 
     @property
     def beyond(self) -> Array:
-        """What ln|z| has from the part of s that is clipped."""
+        """Contribution to ln|z| of the clipped part of s."""
         s = 0.5 * np.log(2.0 * np.pi / self.q * np.sqrt(self.m / self.l))
         return 2.0 * SLOPE * (s - np.clip(s, *PARAMETER))
 
@@ -158,7 +158,7 @@ def read(folder: Path = HERE) -> Data:
         ridges = np.array([[float(v) for v in row] for row in list(csv.reader(stream))[1:]])
     table = table.reshape(-1, 3, table.shape[1])
     heads = [table[:, 0, i] for i in range(6)]
-    # where a run was too short there is no T: nothing of it counts
+    # a run that was too short has no T and does not count
     table[:, :, 7:13][np.isnan(table[:, :, 7])] = 0.0
     parts = [table[:, :, i] + 1j * table[:, :, i + 1] for i in (7, 9, 11)]
     one, none = np.ones(len(ridges)), np.zeros(len(ridges))
@@ -208,7 +208,7 @@ class Fit:
         return data.driven + data.free * self.transfer(data)[0][:, np.newaxis] - data.t
 
     def as_json(self) -> dict[str, Any]:
-        """Coefficients as :mod:`pyehl.theory.response` reads them."""
+        """Coefficients in the form that :mod:`pyehl.theory.response` reads."""
 
         def listed(terms: list[tuple[int, ...]], values: Array) -> list[list[float]]:
             result = []
@@ -232,7 +232,7 @@ class Fit:
 
 
 def _start(data: Data) -> Fit:
-    """Linear fit to the z of every wave by itself."""
+    """Linear fit to the z of each wave."""
     norm = np.maximum((np.abs(data.free) ** 2).sum(axis=1), 1e-30)
     g = (np.conj(data.free) * (data.t - data.driven)).sum(axis=1) / norm
     z = 1.0 / np.where(g == 0.0, 1e-6, g) - 1.0
@@ -255,24 +255,24 @@ def _start(data: Data) -> Fit:
 
 
 def fit(data: Data, iterations: tuple[int, int] = (40, 40), start: Fit | None = None) -> Fit:
-    """Gauss-Newton from a start or the linear fit; a wave with a large residual gets more weight.
+    """Gauss-Newton from a start or the linear fit, with more weight for larger residuals.
 
-    The first iterations minimise about the sum of the fourth powers of the residuals, the last ones
-    about that of the tenth.
+    The first iterations approximately minimise the sum of the fourth powers of the residuals, the
+    last ones that of the tenth powers.
     """
     powers, origin, growth = (data.powers(terms) for terms in (TERMS, ORIGIN, GROWTH))
     _, c, _, _, slip, _, _ = data.variables
     first = np.where(data.kx == 0.0, WEIGHT_OF_RIDGES, 1.0)
     turned, moved = powers * c[:, np.newaxis], origin * (data.kx * slip)[:, np.newaxis]
     grown = growth * (c * slip)[:, np.newaxis]
-    # what a change of G does to T at all X, as one number
+    # effect of a change of G on T at all X, as one number
     strength = np.maximum(np.sqrt((np.abs(data.free) ** 2).sum(axis=1)), 1e-12)
     result = start or _start(data)
     for k in range(sum(iterations)):
         last = k >= iterations[0]
         g, z = result.of_powers(data, powers, origin, growth)
-        left = data.driven + data.free * g[:, np.newaxis] - data.t
-        size = np.abs(left).max(axis=1) * first
+        residual = data.driven + data.free * g[:, np.newaxis] - data.t
+        size = np.abs(residual).max(axis=1) * first
         weight = first * (0.003 + size) ** (4.0 if last else 1.0)
         weight /= np.sqrt(np.mean(weight**2))
         log_z = (-g * z / (1.0 + z) * strength * weight)[:, np.newaxis]
@@ -280,7 +280,7 @@ def fit(data: Data, iterations: tuple[int, int] = (40, 40), start: Fit | None = 
         jacobian = np.hstack(
             [log_z * powers, 1j * log_z * turned, shift * moved, 1j * shift * grown]
         )
-        wanted = -(np.conj(data.free) * left).sum(axis=1) / strength * weight
+        wanted = -(np.conj(data.free) * residual).sum(axis=1) / strength * weight
         a = np.vstack([jacobian.real, jacobian.imag])
         b = np.concatenate([wanted.real, wanted.imag])
         normal = a.T @ a
@@ -292,15 +292,15 @@ def fit(data: Data, iterations: tuple[int, int] = (40, 40), start: Fit | None = 
 
 
 def table(result: Fit, data: Data) -> list[list[str]]:
-    """Largest and rms residual of T per operating point, at X = 0 and over all X."""
-    left = np.abs(result.residual(data))
+    """Maximum and rms residual of T per operating point, at X = 0 and over all X."""
+    residual = np.abs(result.residual(data))
     groups: dict[tuple[float, float, float], list[int]] = defaultdict(list)
     for i, key in enumerate(zip(data.m, data.l, data.ratio, strict=True)):
         if data.kx[i] > 0.0:
             groups[key].append(i)
     lines = []
     for key, waves in sorted(groups.items()):
-        r = left[waves]
+        r = residual[waves]
         values = (r[:, 1].max(), np.sqrt(np.mean(r[:, 1] ** 2)), r.max())
         lines.append([*(f"{v:g}" for v in key), str(len(waves)), *(f"{v:.4f}" for v in values)])
     return lines
@@ -311,7 +311,7 @@ def main(target: Path) -> None:
     everything = read()
     data = everything.chosen(select(everything))
     result = fit(data)
-    # a term a line
+    # one term per line
     text = re.sub(
         r"\[[^][]*\]", lambda m: " ".join(m[0].split()), json.dumps(result.as_json(), indent=1)
     )
@@ -323,13 +323,14 @@ def main(target: Path) -> None:
         writer.writerows([names, *lines])
     for line in lines:
         print("  ".join(value.rjust(7) for value in line))
-    left = np.abs(result.residual(data))
+    residual = np.abs(result.residual(data))
     ridge = data.kx == 0.0
     print(
-        f"{np.count_nonzero(~ridge)} waves: at X = 0 largest {left[~ridge, 1].max():.4f}, rms "
-        f"{np.sqrt(np.mean(left[~ridge, 1] ** 2)):.4f}; over all X largest {left[~ridge].max():.4f}"
+        f"{np.count_nonzero(~ridge)} waves: at X = 0 largest {residual[~ridge, 1].max():.4f}, rms "
+        f"{np.sqrt(np.mean(residual[~ridge, 1] ** 2)):.4f}; over all X largest "
+        f"{residual[~ridge].max():.4f}"
     )
-    print(f"{np.count_nonzero(ridge)} ridges: largest {left[ridge].max():.4f}")
+    print(f"{np.count_nonzero(ridge)} ridges: largest {residual[ridge].max():.4f}")
 
 
 if __name__ == "__main__":

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fit ``edge_gain`` of :mod:`pyehl.theory.response` to the measured pressures, and print the rest.
+"""Fit ``edge_gain`` of :mod:`pyehl.theory.response` to measured pressures; print the residuals.
 
     python docs/evidence/response/gain.py
 
-Waves of ``waves.csv`` too short to feel the edge of the disc (below 0.45 a), at X = 0, 513 x 513
-nodes, M >= 200: at M = 100 little pressure is left to measure.
+The waves of ``waves.csv`` are those that the edge of the disc does not affect (below 0.45 a), at
+X = 0, on 513 x 513 nodes, with M >= 200: at M = 100 the pressure is too small to measure.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def read() -> Array:
             if moes not in films:
                 point = OperatingPoint.from_moes(*moes)
                 films[moes] = central_film(point, Lubricant()) / point.film_scale
-            # pressures that are constant over the cells of the grid deflect less
+            # a pressure that is constant over the cells of the grid has a smaller deflection
             half = 2.0 / (POINTS - 1.0) / np.pi
             cells = np.sinc(half * kx) * np.sinc(half * ky)
             result.append((*moes, kx, ky, films[moes], float(row["pressure_ratio"]) * cells))
@@ -48,26 +48,26 @@ def read() -> Array:
 
 
 def residual(waves: Array, constants: Array | tuple[float, ...]) -> Array:
-    """Gain of some constants less the measured one, (waves,)."""
+    """Gain with `constants` less the measured one, (waves,)."""
     _, _, kx, ky, film, measured = waves.T
     return np.asarray(edge_gain(kx, ky, film, constants) - measured)
 
 
 def fit(waves: Array) -> Array:
-    """Least squares from the constants that are shipped."""
+    """Least squares from the shipped constants."""
     return np.asarray(least_squares(lambda constants: residual(waves, constants), GAIN).x)
 
 
 def main() -> None:
-    """Print the constants and what they leave, at every operating point."""
+    """Print the constants and their residuals at every operating point."""
     waves = read()
     print("shipped", GAIN, "fitted", fit(waves).round(3))
-    left = residual(waves, GAIN)
+    residuals = residual(waves, GAIN)
     for m, ell in sorted({(m, ell) for m, ell in waves[:, :2]}):
-        here = left[(waves[:, 0] == m) & (waves[:, 1] == ell)]
+        here = residuals[(waves[:, 0] == m) & (waves[:, 1] == ell)]
         values = np.sqrt(np.mean(here**2)), np.abs(here).max()
         print(f"({m:g}, {ell:g}): rms {values[0]:.4f}, largest {values[1]:.4f}")
-    print(f"{left.size} waves: rms {np.sqrt(np.mean(left**2)):.4f}")
+    print(f"{residuals.size} waves: rms {np.sqrt(np.mean(residuals**2)):.4f}")
 
 
 if __name__ == "__main__":

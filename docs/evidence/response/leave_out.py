@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How well an operating point is met by a fit to all the others.
+"""Cross-validation of the fit: deviations at an operating point of a fit to all others.
 
     python docs/evidence/response/leave_out.py
 
-writes ``leave_out.csv``, some minutes: the largest deviation of T over all X, for every operating
-point of ``waves.csv`` left out with all its velocity ratios, at U = 1 and 1.01 (`slow`) and at
-other ones (`slip`). Each fit begins at that to all points.
+writes ``leave_out.csv`` in several minutes: the maximum deviation of T over all X, for every
+operating point of ``waves.csv`` omitted with all its velocity ratios, at U = 1 and 1.01 (`slow`)
+and at other ones (`slip`). Each fit starts from that to all points.
 """
 
 from __future__ import annotations
@@ -16,21 +16,21 @@ import numpy as np
 from fit import HERE, Data, Fit, fit, read, select
 
 FEW = (6, 3)
-"""Iterations, from a start that is good."""
+"""Numbers of iterations from a good start."""
 
 
 def left_out(data: Data, whole: Fit, moes_m: float, moes_l: float) -> list[str]:
-    """Largest deviation at a point from the fit to all others, at U = 1 and 1.01 and elsewhere."""
+    """Maximum deviation at a point from the fit to all others, at U = 1 and 1.01 and elsewhere."""
     here = (data.m == moes_m) & (data.l == moes_l)
     waves = data.chosen(here & (data.kx > 0.0))
     result = fit(data.chosen(~here), FEW, whole)
-    left = np.abs(result.residual(waves)).max(axis=1)
+    residual = np.abs(result.residual(waves)).max(axis=1)
     slow = np.abs(waves.ratio - 1.0) < 0.02
-    return [f"{left[part].max():.3f}" if part.any() else "" for part in (slow, ~slow)]
+    return [f"{residual[part].max():.3f}" if part.any() else "" for part in (slow, ~slow)]
 
 
 def main() -> None:
-    """Leave out the operating points one at a time."""
+    """Omit the operating points one at a time."""
     rows = [["moes_m", "moes_l", "slow", "slip"]]
     everything = read()
     data = everything.chosen(select(everything))

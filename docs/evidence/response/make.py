@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Make ``waves.csv`` anew: the response of the contact to waves, measured with the solver.
+"""Rewrite ``waves.csv``: the response of the contact to waves, measured with the solver.
 
     python docs/evidence/response/make.py waves.csv [M L U]
 
-All runs of the plan, one after the other, take some hours on two cores; with M, L, U only those of
-one operating point. Each run is a tile of 4 a with up to 34 waves of small amplitude; on 1025 x
-1025 nodes one of a/2 with the shortest.
+All runs of the plan take several hours on two cores; with M, L, U only those of one operating point
+are made. Each run is a tile of 4 a with up to 34 waves of small amplitude; on 1025 x 1025 nodes a
+tile of a/2 with the shortest waves.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ from pyehl.theory.transport import Zone, stiffness, transport, zone_on
 Array, Complex = NDArray[np.float64], NDArray[np.complex128]
 HERE = Path(__file__).parent
 STATIONS = np.array([-0.5, 0.0, 0.5])
-# The one of them at X = 0
+# Index of X = 0
 MIDDLE = 1
 COLUMNS = (
     "moes_m moes_l velocity_ratio points kx ky x T_re T_im driven_re driven_im free_re free_im "
     "pressure_ratio"
 ).split()
 TILE = 4.0
-# Runs (M, L, U, points, variant) whose record began later than FILLING, at SETTLED [a]
+# Runs (M, L, U, points, variant) whose record began at SETTLED [a], later than FILLING
 SETTLED = 5.3
 LATER = {
     (200.0, 10.0, 0.9, 257, 1),
@@ -57,14 +57,14 @@ LATER = {
         for ratio in (0.9, 1.01, 1.1)
     ),
 }
-# Wavelengths per tile along the motion, as far as the grid has eight nodes for them
+# Wavelengths per tile along the motion, those with at least eight nodes each
 ALONG = (*range(1, 17), 18, 19, 20, 22, 24, 26, 28, 30, 32, 35, 38, 41, 44, 48, 52, 56, 60, 64)
-# Angles [deg], one wave after the other; variants 0 and 1 begin at different ones
+# Angles of consecutive waves [deg]; variants 0 and 1 start at different ones
 ANGLES = (
     *(85, 0, 45, 26, 0, 63, 45, 0, 30, 56, 0, 45, 70, 18, 0, 45, 60),
     *(0, 35, 50, 0, 70, 22, 45, 0, 60, 0, 40, 0, 65, 45, 0, 30, 0),
 )
-# Those of variants 2 and 3
+# Angles of variants 2 and 3
 STEEP = (
     *(85, 80, 70, 76, 84, 66, 73, 87, 62, 79, 83, 68, 75, 86, 64, 81, 71),
     *(77, 88, 60, 82, 74, 69, 85, 65, 78, 72, 84, 67, 80, 63, 76, 82, 70),
@@ -72,7 +72,7 @@ STEEP = (
 
 
 def waves_of(points: int, variant: int) -> WaveSet:
-    """Waves of a run on a grid of points x points nodes; on the finest those of the last tier."""
+    """Waves of a run on a grid of points x points nodes, on the finest those of the last tier."""
     if points == TIERS[-1].points:
         return tier_waves(TIERS[-1])
     last = (points - 1) // 8
@@ -120,7 +120,7 @@ def smooth_line(moes_m: float, moes_l: float, points: int) -> tuple[Array, ...]:
 def parts_of(
     zone: Zone, kx: Array, ky: Array, moes: tuple[float, float], ratio: float, spacing: float
 ) -> list[tuple[Complex, Complex]]:
-    """Driven part of T at the STATIONS, and the free part but for what is fitted of it."""
+    """Driven part of T at the STATIONS, and the free part without its fitted factor."""
     base = inlet_base(zone, kx, ky, moes, ratio, spacing)
     result = []
     for x, (driven, free) in zip(
@@ -133,7 +133,7 @@ def parts_of(
 def rows(
     waves: WaveSet, result: Superposition, moes_m: float, moes_l: float, ratio: float
 ) -> Iterator[list[str]]:
-    """Lines of the table: T, and the parts of it that the transport equation gives."""
+    """Rows of the table: T, and its parts by the transport equation."""
     kx, ky = waves.kx, waves.ky
     points = round(TILE / result.spacing) + 1
     zone = smooth_zone(moes_m, moes_l, points)
@@ -153,7 +153,7 @@ def rows(
 
 
 def runs() -> Iterator[tuple[float, float, float, int, int]]:
-    """M, L, U, points and variant of the runs that the table is from."""
+    """M, L, U, points and variant of the runs of the table."""
     with (HERE / "waves.csv").open(newline="", encoding="utf-8") as stream:
         table = list(csv.DictReader(stream))
     there: dict[tuple[str, ...], set[tuple[str, str]]] = {}

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How much more the inlet flattens off the centre line: ``off_centre.csv`` beside the response.
+"""Flattening by the inlet off the centre line: ``off_centre.csv`` compared with the response.
 
     python docs/evidence/response/off_centre.py [--measure]
 
-With ``--measure`` the waves are measured anew, some minutes; without, the table is compared with
-the response, nothing of which is fitted to it: the change of T from its measured value on Y = 0.
-Waves with crests across the motion on 257 x 257 nodes; T on lines beside the centre line, at X = 0.
+``--measure`` repeats the measurement, in several minutes. The change of T from its measured value
+on Y = 0 is compared with the response, which is not fitted to it. Waves with crests across the
+motion on 257 x 257 nodes; T on lines off the centre line, at X = 0.
 """
 
 from __future__ import annotations
@@ -71,8 +71,8 @@ def measure(moes_m: float, moes_l: float) -> list[list[str]]:
     return rows
 
 
-def left(table: NDArray[np.float64]) -> NDArray[np.float64]:
-    """|T| beside the centre line that the oblique inlet leaves of the measured change (n,)."""
+def residuals(table: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Deviations of T off the centre line by the model of the oblique inlet (n,)."""
     result = np.empty(len(table))
     for m, ell in RUNS:
         here = np.flatnonzero((table[:, 0] == m) & (table[:, 1] == ell))
@@ -81,7 +81,7 @@ def left(table: NDArray[np.float64]) -> NDArray[np.float64]:
         t = table[here, 4] + 1j * table[here, 5]
         line = [inlet_fit(k, 0.0, (m, ell), RATIO, y) for k, y in table[here, 2:4]]
         middle = [inlet_fit(k, 0.0, (m, ell), RATIO) for k in kx]
-        # the edge of a line off the centre line lies further along the motion
+        # off the centre line the inlet edge is further along the motion
         behind = np.sqrt(1.0 - np.square(table[here, 3])) - 1.0
         change = np.array(line) / np.array(middle) * np.exp(1j * kx * (RATIO - 1.0) * behind)
         centre = np.repeat(((t - driven) / free)[table[here, 3] == 0.0], len(LINES))
@@ -90,7 +90,7 @@ def left(table: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def main(arguments: list[str]) -> None:
-    """Measure if asked, compare, print."""
+    """Measure if requested, compare, print."""
     path = HERE / "off_centre.csv"
     if "--measure" in arguments:
         rows = []
@@ -100,14 +100,13 @@ def main(arguments: list[str]) -> None:
             with path.open("w", newline="", encoding="utf-8") as stream:
                 csv.writer(stream, lineterminator="\n").writerows([COLUMNS, *rows])
     table = np.loadtxt(path, delimiter=",", skiprows=1)
-    residual = left(table)
+    residual = residuals(table)
     for m, ell in RUNS:
         point = (table[:, 0] == m) & (table[:, 1] == ell)
         for line in LINES[1:]:
             here = residual[point & (table[:, 3] == line)]
-            print(
-                f"({m:g}, {ell:g}) at Y = {line:g}: rms {np.sqrt(np.mean(here**2)):.4f} of T left"
-            )
+            rms = np.sqrt(np.mean(here**2))
+            print(f"({m:g}, {ell:g}) at Y = {line:g}: rms residual of T {rms:.4f}")
 
 
 if __name__ == "__main__":

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compute the driven and free parts in ``waves.csv``, ``unfitted.csv`` and ``ridges.csv`` anew.
+"""Recompute the driven and free parts in ``waves.csv``, ``unfitted.csv`` and ``ridges.csv``.
 
     python docs/evidence/response/parts.py
 
-After a change of :mod:`pyehl.theory.transport`: the measured T stays, what the transport equation
-gives of it is taken from smooth contacts that are solved on the grids of the runs, some minutes.
+For a change of :mod:`pyehl.theory.transport`: the measured T stays; its parts by the transport
+equation are computed from smooth contacts on the grids of the runs, in several minutes.
 """
 
 from __future__ import annotations

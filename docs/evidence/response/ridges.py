@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Make ``ridges.csv`` anew: ridges along the motion by steady solutions, two minutes.
+"""Rewrite ``ridges.csv``: ridges along the motion by steady solutions, two minutes.
 
 python docs/evidence/response/ridges.py ridges.csv
 """
@@ -25,14 +25,14 @@ from pyehl.theory.transport import stiffness, zone_on
 
 POINTS = 513
 WAVELENGTHS = (2.0, 1.6, 1.0, 0.8, 0.5, 0.25, 0.125)
-# Operating points (M, L) besides those of the waves
+# Operating points (M, L) in addition to those of the waves
 BETWEEN = {(300.0, 15.0), (700.0, 6.0), (900.0, 10.0)}
 
 
 # Amplitude over wavelength [a/R]: small enough for the response to be linear
 AMPLITUDE = 3e-4
-# Algebraic error of both films over the error of the grid: their difference is measured. Five times
-# as much changes T by 0.01, twenty times by up to 0.09
+# Algebraic error of both films, whose difference is measured, over the grid error. A value five
+# times as large changes T by 0.01, twenty times by up to 0.09
 ACCURACY = 1e-3
 # Pixels per wavelength; the solver interpolates a map by its Fourier series
 PIXELS = 32
@@ -41,17 +41,17 @@ PIXELS = 32
 def ridges(
     settings: Mapping[str, Mapping[str, Any]], wavelengths: Sequence[float], *, points: int
 ) -> dict[str, NDArray[np.float64]]:
-    """Solve the contact of a resolved case with ridges, one wavelength [a] after the other.
+    """Solve the contact of a resolved case with ridges of each wavelength [a].
 
-    Places x within REACH (n,) [a]; film and pressure of the smooth contact there; response T and
-    stiffness (m, n); grid spacing. EhlError if a contact has no solution.
+    Returns positions x within REACH (n,) [a]; film and pressure of the smooth contact there;
+    response T and stiffness (m, n); grid spacing. EhlError if a contact has no solution.
     """
     solver = {"accuracy": ACCURACY}
     smooth = transient_case(settings, points=points, tile=1.0, velocity_ratio=0.0, solver=solver)
     smooth = smooth.with_options("surface.kind=smooth", "time.steps=0")
     scale = OperatingPoint.from_settings(smooth.resolve()).film_scale
     place = np.arange(PIXELS) / PIXELS
-    # even to the last bit
+    # symmetric to the last bit
     line = AMPLITUDE * np.cos(2.0 * np.pi * np.minimum(place, 1.0 - place))
     solved = []
     for wavelength in (0.0, *wavelengths):

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Waves at slips beyond those of the fit: ``slip.csv``, measured beside the response.
+"""Waves at slips beyond those of the fit: ``slip.csv``, measurements and response.
 
     python docs/evidence/response/slip.py
 
-makes the runs of `PLAN` that the table lacks, about a minute each, computes the response, with
-pressure and film of the smooth contact on the grid of a run, and prints how far T is off. Nothing
-of the response is fitted to these waves.
+makes the missing runs of `PLAN`, about a minute each, computes the response with pressure and film
+of the smooth contact on the grid of a run, and prints the deviations of T. The response is not
+fitted to these waves.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ PLAN = (
     *product((3000.0,), (3.0,), (0.5, 1.5), (513,)),
 )
 COLUMNS = "moes_m moes_l velocity_ratio points kx ky x T_re T_im predicted_re predicted_im".split()
-# Waves that are compared have as many nodes, and are no longer along the motion [a]
+# Minimum number of nodes per wavelength, and maximum length along the motion [a], of compared waves
 NODES, LONGEST = 10.0, 3.0
 
 
@@ -70,7 +70,7 @@ def read() -> NDArray[np.float64]:
 
 
 def compared(rows: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Whether a row is of a wave that the grid has and that does not feel the edge."""
+    """Whether the grid resolves the wave of a row, and the edge does not affect it."""
     nodes = 2.0 * np.pi / np.hypot(rows[:, 4], rows[:, 5]) * (rows[:, 3] - 1.0) / 4.0
     long = 2.0 * np.pi / rows[:, 4] >= LONGEST
     return np.asarray((nodes >= NODES) & ~long & ~np.isnan(rows[:, 7]))
@@ -82,7 +82,7 @@ def off(rows: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def main() -> None:
-    """Measure what is missing, predict all, print and write."""
+    """Measure missing runs, predict all, print and write."""
     rows = read()
     result = []
     print("moes_m moes_l    U  points  waves  X = 0: rms  largest  all X: largest")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How well the fit meets runs that it does not know: waves of a/8 to a/32 between its points.
+"""Deviations of the fit for waves of a/8 to a/32 between its points, which it does not include.
 
     python docs/evidence/response/unfitted.py
 
-prints the largest deviation of T over all X for each wavelength of ``unfitted.csv``, whose columns
+prints the maximum deviation of T over all X for each wavelength of ``unfitted.csv``, whose columns
 are those of ``waves.csv``.
 """
 
@@ -21,7 +21,7 @@ HERE = Path(__file__).resolve().parent
 
 
 def main() -> None:
-    """Compare T = driven + free F with what was measured."""
+    """Compare T = driven + free F with the measured T."""
     result: dict[tuple[str, ...], list[float]] = defaultdict(list)
     with (HERE / "unfitted.csv").open(newline="", encoding="utf-8") as stream:
         for row in csv.DictReader(stream):
@@ -38,8 +38,8 @@ def main() -> None:
             key = (row["moes_m"], row["moes_l"], row["velocity_ratio"], octave)
             result[key].append(abs(driven + free * inlet - t))
     print("moes_m moes_l     U  wavelength  largest")
-    for (m, ell, ratio, octave), left in sorted(result.items()):
-        print(f"{m:>6} {ell:>6} {ratio:>5}  {octave:>10}  {max(left):7.3f}")
+    for (m, ell, ratio, octave), off in sorted(result.items()):
+        print(f"{m:>6} {ell:>6} {ratio:>5}  {octave:>10}  {max(off):7.3f}")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A slow roller beside dry contact of the same gap by ContactMechanics, over its speed.
+"""A slow roller compared with dry contact of the same gap by ContactMechanics, over its speed.
 
 ``python docs/evidence/rollers/dry.py`` writes dry.csv in about two minutes; needs
 ContactMechanics (pyehl[test]).
@@ -49,7 +49,7 @@ def dry_pressure(ds: xr.Dataset) -> NDArray[np.float64]:
         -c["log_amplitude"] * np.log(1.0 - np.minimum(0.998, np.abs(y) / y[-1]) ** 2)
         + c["misalignment"] * y
     )
-    # where no body is
+    # beyond the ends of the roller
     gap[:, [0, -1]] = 1e-3
     nodes = gap.shape
     step = x[1] - x[0], y[1] - y[0]
@@ -71,7 +71,7 @@ def rms(ds: xr.Dataset, dry: NDArray[np.float64]) -> float:
 
 
 def runs() -> Iterator[dict[str, float]]:
-    """Compare at each speed."""
+    """Compare the pressures at each speed."""
     for points, speeds in SPEEDS.items():
         dry = None
         for speed in speeds:
@@ -93,7 +93,7 @@ def read() -> list[dict[str, float]]:
 
 
 def table() -> list[str]:
-    """Give the table of dry.csv."""
+    """Make the table of dry.csv."""
     lines = ["| nodes along X | speed | M of the line | rms difference |", "|---|---|---|---|"]
     lines += [
         f"| {row['points']:.0f} | {row['mean_velocity']:g} m/s | {row['moes_m_line']:.0f} "

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rollers of one load with four profiles, straight and misaligned, and random rollers.
+"""Rollers of one load with four profiles, aligned and misaligned, and random rollers.
 
-``python docs/evidence/rollers/make.py`` writes profiles.csv; seed_1.json is of
-``python benchmarks/rollers.py --count 40 --seed 1 -o docs/evidence/rollers/seed_1.json``; others
-are of seeds 2, 31, 32, 33 and 34, and of seed 35 with --count 20.
+``python docs/evidence/rollers/make.py`` writes profiles.csv; seed_1.json is from
+``python benchmarks/rollers.py --count 40 --seed 1 -o docs/evidence/rollers/seed_1.json``; the
+others have seeds 2, 31, 32, 33 and 34, and seed 35 with --count 20.
 """
 
 import csv
@@ -25,7 +25,7 @@ ROLLER = {
     "radius": 0.005,
     "mean_velocity": 1.0,
 }
-# The three profiles drop by about as much at the end, the logarithm more steeply
+# The three profiles have about the same drop at the end; the logarithmic one is steeper there
 PROFILES: dict[str, dict[str, float]] = {
     "none": {},
     "crown": {"crown_radius": 1.0},
@@ -41,12 +41,12 @@ REMEDIES = {
     "cells half as long along Y": ".* 257x.*",
     "cells half as long along X": ".* 513x.*",
 }
-"""Remedies, by what profile and remedy of remedies.csv match."""
+"""Patterns of profile and remedy in remedies.csv, by description."""
 SEEDS = (1, 2, 31, 32, 33, 34, 35)
 
 
 def runs() -> Iterator[dict[str, str | float]]:
-    """Solve each profile, straight and misaligned by 1 mrad."""
+    """Solve each profile, aligned and misaligned by 1 mrad."""
     for profile, keys in PROFILES.items():
         for angle in (0.0, 1e-3):
             contact = ROLLER | {"profile": profile, "misalignment": angle} | keys
@@ -63,7 +63,7 @@ def runs() -> Iterator[dict[str, str | float]]:
 
 
 def table() -> list[str]:
-    """Give the table of profiles.csv."""
+    """Make the table of profiles.csv."""
     with (HERE / "profiles.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     lines = [
@@ -89,7 +89,7 @@ def table() -> list[str]:
 
 
 def random() -> list[str]:
-    """Give the table of the random rollers."""
+    """Make the table of the random rollers."""
     rows = [row for seed in SEEDS for row in _record(seed)]
     lines = ["| profile | rollers | with a solution | without |", "|---|---|---|---|"]
     for profile in PROFILES:
@@ -101,7 +101,7 @@ def random() -> list[str]:
 
 
 def by_seed() -> list[str]:
-    """Give how many rollers of each seed have a solution."""
+    """List the numbers of rollers with a solution by seed."""
     lines = []
     for seed in SEEDS:
         rows = _record(seed)
@@ -111,7 +111,7 @@ def by_seed() -> list[str]:
 
 
 def remedies() -> list[str]:
-    """Give how many rollers have a solution with a remedy."""
+    """Make the table of rollers with a solution by remedy."""
     with (HERE / "remedies.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     lines = ["| remedy | rollers | with a solution | negative film | above 90 s |"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What helps a random roller without a solution.
+"""Try remedies on random rollers without a solution.
 
 python docs/evidence/rollers/remedies.py SEED NUMBER REMEDY    appends a row to remedies.csv
 """
@@ -15,7 +15,7 @@ import pyehl
 
 HERE = Path(__file__).resolve().parent
 LIMIT = 90
-"""Processor time of a run [s]; one that takes longer is ended, and its row is added by hand."""
+"""Maximum processor time of a run [s]; the row of a run that is stopped is added by hand."""
 
 
 def changed(keys: dict[str, Any], remedy: str) -> dict[str, Any]:

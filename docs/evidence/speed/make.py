@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-r"""Make the tables of this folder from what benchmarks measured, or print those of the documents.
+r"""Make the tables of this folder from benchmark results, or print those of the documents.
 
 python benchmarks/step.py --points 129,257,513 --error -o step.json
 python benchmarks/step.py --points 1025 --front 0 --steps 16 -o step_1025.json
@@ -11,7 +11,7 @@ python benchmarks/step.py --points 257 --threads 1 --steps 384 \
 python benchmarks/smooth.py --points 257,513 --threads 1 --engines mlmi --cases circle,law,ellipse \
     -o more.json
 python docs/evidence/speed/make.py read FOLDER    writes the tables, from these files
-python docs/evidence/speed/make.py show           prints them as the documents have them
+python docs/evidence/speed/make.py show           prints the tables of the documents
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ HERE = Path(__file__).resolve().parent
 
 Row = dict[str, Any]
 
-# Problems as the documents call them
+# Names of problems in the documents
 PROBLEMS = {
     "wave": "wave of Fig. 2",
     "fractal": "fractal surface of Table 1",
@@ -37,7 +37,7 @@ PROBLEMS = {
     "ellipse": "smooth ellipse, κ = 2",
 }
 
-# Table, the files that it is made of, its columns and their formats
+# Source files of each table, its columns and their formats
 TABLES: dict[str, tuple[tuple[str, ...], dict[str, str]]] = {
     "steps": (
         ("step", "step_1025"),
@@ -97,7 +97,7 @@ def read_measurements(folder: Path) -> None:
 
 
 def runs(measured: dict[str, Any]) -> list[Row]:
-    """Give whole runs the unit of the steps on their grid."""
+    """Express the time of whole runs in the unit of steps on their grid."""
     unit = {row["points"]: row["unit_seconds"] for row in measured["rows"]}
     return [
         row | {"unit_seconds": unit[row["points"]], "units": row["seconds"] / unit[row["points"]]}
@@ -161,7 +161,7 @@ def whole() -> list[str]:
 
 
 def smooth() -> list[str]:
-    """Make the table of smooth contacts by multi-integration, and by FFT beside it."""
+    """Make the table of smooth contacts by multi-integration and by FFT."""
     rows = {(r["points"], r["engine"], r["threads"]): r for r in table("smooth")}
     result = []
     for points in dict.fromkeys(key[0] for key in rows):
@@ -180,7 +180,7 @@ def smooth() -> list[str]:
 
 
 def ratios() -> list[str]:
-    """Make the table of what a law, an ellipse or a second surface costs."""
+    """Make the table of the cost of a law, an ellipse or a second surface."""
     result = [
         [PROBLEMS[row["case"]], f"{row['points']} nodes", row["ratio"]]
         for row in table("ratios")
@@ -190,7 +190,7 @@ def ratios() -> list[str]:
 
 
 def power(text: str) -> str:
-    """Write a small number as the documents do."""
+    """Format a small number as in the documents."""
     digit, _, exponent = text.partition("e")
     if float(text) == 0.0:
         return "0"
@@ -199,7 +199,7 @@ def power(text: str) -> str:
 
 
 def skips() -> list[str]:
-    """Make the table of what is skipped."""
+    """Make the table of skipped computations."""
     result = []
     for row in table("skips"):
         what = row["skipped"].replace("time.start = 'prediction'", "`time.start = 'prediction'`")
@@ -214,7 +214,7 @@ def skips() -> list[str]:
 
 
 def sweep() -> list[str]:
-    """Make the table of studies: a case over a smooth contact on 257 x 257 nodes."""
+    """Make the table of studies, in units of a smooth contact on 257 x 257 nodes."""
     rows = table("sweep")
     rate = {(row["problem"], row["processes"]): float(row["cases_per_core_hour"]) for row in rows}
     names = {
@@ -238,7 +238,7 @@ def sweep() -> list[str]:
 
 
 def main() -> None:
-    """Do what the first argument says."""
+    """Run the command of the first argument."""
     if sys.argv[1:2] == ["read"] and len(sys.argv) == 3:
         read_measurements(Path(sys.argv[2]))
     elif sys.argv[1:] == ["show"]:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Problems from front and prediction: python make.py problems.csv [POINTS [PROBLEM ...]].
 
-Each problem is run with time.start = 'front' and with 'prediction', on as many nodes a side.
-Rows are appended as they are done; those that are there are left alone. Without POINTS the lines of
-the table in README.md are printed.
+Each problem is run with time.start = 'front' and with 'prediction', on POINTS nodes per side.
+Finished rows are appended; existing ones stay. Without POINTS the script prints the table of
+README.md.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ WIDE = {"contact.radius_ratio": 0.35177}
 
 
 def pair(slide_to_roll: float, other: float) -> dict[str, Any]:
-    """Options of two waves, the second of another length [a]."""
+    """Options of two waves, the second with the wavelength `other` [a]."""
     keys = POINT | {"surface.kind": "harmonic", "surface.amplitude": 4e-3}
     second = {"kind": "harmonic", "amplitude": 3e-3, "wavelength": other}
     keys |= {f"second_surface.{key}": value for key, value in second.items()}
@@ -86,7 +86,7 @@ def problems(folder: Path) -> dict[str, dict[str, Any]]:
 
 
 def row_of(name: str, points: int, options: dict[str, Any]) -> dict[str, Any]:
-    """Run a problem both ways."""
+    """Run a problem with both starts."""
     result = []
     for start in ("front", "prediction"):
         case = pyehl.Case.from_text("", options | {"grid.points": points, "time.start": start})
@@ -131,7 +131,7 @@ def line_of(row: dict[str, Any]) -> str:
 
 
 def main(table: Path, points: int, wanted: list[str]) -> None:
-    """Append the rows that are missing."""
+    """Append missing rows."""
     done = {(row["problem"], int(row["points"])) for row in rows_of(table)}
     with tempfile.TemporaryDirectory() as folder, table.open("a", newline="") as file:
         writer = csv.DictWriter(file, COLUMNS)

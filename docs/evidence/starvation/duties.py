@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Duties with a layer of oil: ``python docs/evidence/starvation/duties.py``.
+"""Duties with an oil layer: ``python docs/evidence/starvation/duties.py``.
 
-Writes balance.csv, the oil that has passed at four instants of ten duties, and start.csv, the
-first step from steady contacts.
+Writes balance.csv, the oil balance at four instants of ten duties, and start.csv, the first step
+from steady contacts.
 """
 
 import csv
@@ -32,11 +32,11 @@ BALL_DUTIES = {
 }
 OIL = {"viscosity": 0.05, "pressure_viscosity": 2e-8}
 RADII_Y = {0.01: 60.0, 0.003: 30.0, 0.03: 100.0}
-"""[m], with the load [N]; radius_x is 0.01 m."""
+"""Radii [m] with the loads [N]; radius_x is 0.01 m."""
 
 
 def balances() -> Iterator[Row]:
-    """Oil that has passed at quarters of the steps, over what has flowed in by then."""
+    """Oil balance after each quarter of the steps, over the oil that has flowed in by then."""
     runs = {
         ("line", name): pyehl.solve(
             line(time, BOTH_SIDES if name == "reversal" else None, LAYER, **duty)
@@ -62,7 +62,7 @@ def balances() -> Iterator[Row]:
 
 
 def starts() -> Iterator[Row]:
-    """H_c of the steady contact, what the first step changes, and the errors that are stated."""
+    """H_c of the steady contact, its change in the first step, and the stated errors."""
     for radius, load in RADII_Y.items():
         contact = {
             "load": load, "mean_velocity": 1.0, "radius_x": 0.01, "radius_y": radius,

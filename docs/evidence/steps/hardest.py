@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Make hardest.csv of runs with either coarsening, five minutes each.
+"""Make hardest.csv from runs with either coarsening, five minutes each.
 
 pyehl run docs/evidence/steps/hardest.nml -o auto
 pyehl run docs/evidence/steps/hardest.nml --set solver.coarsening=classical -o classical
 python docs/evidence/steps/hardest.py auto classical
 
-mean, least, greatest: of the means of mu_r/mu_s over 602 steps (19 periods, to a fiftieth of a
-step), wherever in the last 1600 steps; cycles: a step, mean of all after the 400th.
+mean, least, greatest: mean, minimum and maximum of the running means of mu_r/mu_s over 602 steps
+(19 periods, to a fiftieth of a step) in the last 1600 steps; cycles: mean per step after the 400th.
 """
 
 from __future__ import annotations

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Make the table of the algebraic error of mu_r/mu_s: python make.py table.csv [CASE ...].
 
-Each case is run with the default settings, and once more with the same number of steps to a
-fortieth of the algebraic error (solver.accuracy = 0.0025). The grid error is 4/3 of the difference
-to the run on the next finer grid. Rows are appended as they are done; those that are there are left
-alone.
+Each case is run with the default settings, and again with the same number of steps to a fortieth of
+the algebraic error (solver.accuracy = 0.0025). The grid error is 4/3 of the difference to the run
+on the next finer grid. Finished rows are appended; existing ones stay.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ COLUMNS = (
 
 
 def wave(m: float, moes_l: float, length: float, amplitude: float, ratio: float = 1.01) -> str:
-    """Write the case of a wave, its amplitude absolute so that it is the same on all grids."""
+    """Write the case of a wave, with an absolute amplitude, the same on all grids."""
     return (
         f"&contact moes_m = {m} moes_l = {moes_l} /\n"
         f"&surface kind = 'harmonic' amplitude = {amplitude} wavelength = {length} "
@@ -44,7 +43,7 @@ def wave(m: float, moes_l: float, length: float, amplitude: float, ratio: float 
 
 
 BALL = "&contact load = 30.0 mean_velocity = 0.5 radius = 0.0127 reduced_modulus = 1.24e11 /\n"
-# Name: nodes a side, case
+# Name: nodes per side, case
 CASES = {
     "(1000, 10), wave of Fig. 2": (257, wave(1000.0, 10.0, 0.5, 9.734e-3)),
     "(1000, 10), wave 0.5 a, 0.1 H_c": (257, wave(1000.0, 10.0, 0.5, 2.46e-3)),
@@ -107,7 +106,7 @@ def run(text: str, points: int, *options: str) -> tuple[dict[str, Any], float]:
 
 
 def row(name: str) -> dict[str, Any]:
-    """Make one line of the table."""
+    """Make a row of the table."""
     points, text = CASES[name]
     done, seconds = run(text, points)
     steps = f"time.steps={done['steps']}"
@@ -134,7 +133,7 @@ def row(name: str) -> dict[str, Any]:
 
 
 def main() -> None:
-    """Append the rows that are not there yet."""
+    """Append missing rows."""
     table = Path(sys.argv[1])
     there = [line["case"] for line in csv.DictReader(table.open())] if table.exists() else []
     for name in sys.argv[2:] or CASES:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-r"""Make contacts.csv of a campaign with boundary films.
+r"""Make contacts.csv from a campaign with boundary films.
 
 python benchmarks/stress.py --shear-law eyring --boundary-film --cases 60 --seed 1 \
     --points 65,129 -o layers

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Make laws.csv of campaigns with a shear law and without one, and print what came of them.
+"""Make laws.csv from campaigns with and without a shear law, and print the outcomes.
 
 python benchmarks/stress.py --shear-law eyring --cases 60 --seed 1 --points 65,129 -o eyring
 python benchmarks/stress.py --shear-law carreau --cases 60 --seed 1 --points 65,129 -o carreau
@@ -22,7 +22,7 @@ COLUMNS = (
 
 
 def main(files: list[str]) -> None:
-    """Write the table; print counts and the largest difference over what is allowed."""
+    """Write the table; print counts and the maximum difference over the allowed one."""
     with (HERE / "laws.csv").open("w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, COLUMNS, extrasaction="ignore", lineterminator="\n")
         writer.writeheader()

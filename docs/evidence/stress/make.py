@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Make table.csv and stress.png of a campaign, with what the second solver says of its cases.
+"""Make table.csv and stress.png from a campaign, with the results of the second solver.
 
 python benchmarks/stress.py --cases 100 --seed 1 -o stress
 PYTHONPATH=tests/cases python docs/evidence/stress/make.py stress/stress.json
@@ -37,9 +37,9 @@ COLUMNS = (
 Row = dict[str, Any]
 
 POINTS = 65
-"""Nodes per side that the second solver can do in seconds."""
-MOST_STEPS = 120
-"""Longest runs that it is asked for."""
+"""Nodes per side on which the second solver takes seconds."""
+MAX_STEPS = 120
+"""Maximum number of steps of its runs."""
 FAILED = ("cycle limit", "negative film", "diverged")
 NO_SOLUTION, SAME, DIFFERS, UNSOLVED, SOLVABLE = (
     "no solution",
@@ -58,27 +58,27 @@ FAMILIES = {
     "": "all",
 }
 LATER = 5
-"""A film may end so many steps later than in the run: near its end the last digits decide."""
+"""Steps by which film breakdown may be later than in the run: it is sensitive to rounding."""
 AGREE = 1e-2
-"""Relative difference of the largest mu_r/mu_s of a period: algebraic error of default settings."""
+"""Allowed relative difference of the maximum mu_r/mu_s of a period, due to algebraic errors."""
 
 
 def check(rows: list[Row], sample: int) -> None:
-    """Set `second` of up to `sample` rows that have converged, and of four times as many failed."""
-    for wanted, most in ((("converged",), sample), (FAILED, 4 * sample)):
-        chosen = [row for row in rows if row["outcome"] in wanted and _can(row)][:most]
+    """Set `second` of up to `sample` converged rows, and of four times as many failed ones."""
+    for wanted, count in ((("converged",), sample), (FAILED, 4 * sample)):
+        chosen = [row for row in rows if row["outcome"] in wanted and _can(row)][:count]
         for number, row in enumerate(chosen, 1):
             print(f"second solver: {number} of {len(chosen)} ({' or '.join(wanted)})")
             row["second"] = solve_again(row)
 
 
 def _can(row: Row) -> bool:
-    """Whether the second solver has what the case has."""
+    """Whether the second solver can solve the case."""
     if row["values"].get("grid.points") != POINTS or row["family"] not in ("smooth", "wave"):
         return False
     if row["moes_l"] == 0.0:
         return False
-    return (row["steps"] or 0) <= MOST_STEPS
+    return (row["steps"] or 0) <= MAX_STEPS
 
 
 def solve_again(row: Row) -> str:
@@ -87,11 +87,11 @@ def solve_again(row: Row) -> str:
     Returns
     -------
     str
-        Of a case that converged: 'same' or 'differs'. Of one that failed: 'no solution' where the
-        solution of the equations has a negative film at that step (where the run had one, within
+        For a converged case: 'same' or 'differs'. For a failed one: 'no solution' if the
+        solution of the equations has a negative film at that step (if the run had one, within
         `LATER` steps), 'has a solution', or 'not solved either'.
     """
-    # of the tests, and not needed to show what there is
+    # a module of the tests, not needed to show stored results
     from second_solver import NotSolvedError, SecondSolver, Wave  # noqa: PLC0415
 
     values = row["values"]
@@ -116,7 +116,7 @@ def solve_again(row: Row) -> str:
         if not good:
             ahead = LATER if row["outcome"] == "negative film" else 1
             films = (film.min() for _, film in islice(solver.steps(wave), steps + ahead))
-            return NO_SOLUTION if any(least <= 0.0 for least in films) else SOLVABLE
+            return NO_SOLUTION if any(minimum <= 0.0 for minimum in films) else SOLVABLE
         result = list(islice(solver.steps(wave), steps))
     except (NotSolvedError, np.linalg.LinAlgError, ValueError):
         return UNSOLVED
@@ -139,7 +139,7 @@ def read() -> list[dict[str, str]]:
 
 
 def wrong(row: dict[str, str]) -> bool:
-    """Whether a result differs from its check by more than is allowed."""
+    """Whether a result differs from its check by more than the allowed difference."""
     return bool(row["difference"]) and float(row["difference"]) > float(row["allowed"])
 
 

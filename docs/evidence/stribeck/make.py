@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Make curves.csv and stribeck.png anew: python docs/evidence/stribeck/make.py FOLDER.
+"""Rewrite curves.csv and stribeck.png: python docs/evidence/stribeck/make.py FOLDER.
 
-About two minutes on one core. The folder gets a study for each surface and shear law; started again
-it goes on.
+About two minutes on one core. The folder gets a study for each surface and shear law, which a
+second run continues.
 """
 
 from __future__ import annotations
@@ -35,12 +35,12 @@ CASE = HERE.parents[2] / "cases" / "table1.nml"
 CURVES = HERE / "curves.csv"
 
 SHORT = 52e-6
-"""Waves shorter than this are the short ones [m]: an eighth of the Hertz radius."""
+"""Limit of the short waves [m]: an eighth of the Hertz radius."""
 FACTOR = 10.0
 SPEEDS = "0.25:8:10log"
 SLIPS = (0.02, 0.1, 0.3)
 SURFACES = ("smooth", "table 1", "short waves x 10")
-# The third one has no full film, thus no friction of a full film, at any of these speeds
+# The third one has no full film at any of these speeds, thus no friction
 NAMES = ("smooth", "surface of Table 1", "short waves × 10")
 LAWS = ("eyring", "newtonian")
 COLUMNS = (
@@ -51,7 +51,7 @@ KEYS = ("contact.mean_velocity", "contact.slide_to_roll")
 
 
 def options_of(surface: str, folder: Path) -> list[str]:
-    """Options of a surface; makes the map of that with its short waves times FACTOR."""
+    """Options of a surface; writes the map of that with its short waves times FACTOR."""
     if surface == "smooth":
         return ["surface.kind=smooth"]
     if surface == "table 1":
@@ -71,7 +71,7 @@ def curve(
     place = folder / f"{surface} {law}".replace(" ", "_")
     settings = [*options_of(surface, folder), f"lubricant.shear_law={law}", "grid.points=257"]
     if law != "newtonian":
-        # the oil gets thinner by 4 % a kelvin
+        # the viscosity decreases by 4 % per kelvin
         settings.append("lubricant.temperature_viscosity=0.04")
     # the curves were made on the domain of the paper
     settings += ["grid.x_inlet=-2.5", "grid.x_outlet=1.5", "grid.y_extent=2.0"]
@@ -134,7 +134,7 @@ def draw(result: list[dict[str, str]], path: Path) -> None:
 
 
 def main(folder: Path) -> None:
-    """Run all curves, write the table and the picture."""
+    """Compute all curves, write the table and the picture."""
     folder.mkdir(parents=True, exist_ok=True)
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stress below predicted rough contacts beside that below simulated ones: table.csv.
+"""Stress below predicted and below simulated rough contacts: table.csv.
 
     python docs/evidence/subsurface/compare.py NAME ... [--points N]    simulates and adds rows
     python docs/evidence/subsurface/compare.py                          prints the table
@@ -38,7 +38,7 @@ COLUMNS = (
 
 
 def solved(name: str, points: int) -> xr.Dataset:
-    """Simulate; the frames of the last period."""
+    """Simulate, and return the frames of the last period."""
     plan = rough.PLAN[name]
     period = plan.length / plan.velocity_ratio
     case = rough.case_of(plan, points).with_options(f"output.frame_interval={period / FRAMES!r}")

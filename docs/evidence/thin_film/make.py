@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A rough ball on a disc whose film is about as thick as the roughness: predicted and simulated.
 
-    python docs/evidence/thin_film/make.py predict      writes predicted.csv anew
-    python docs/evidence/thin_film/make.py simulate     adds what is missing to simulated.csv
-    python docs/evidence/thin_film/make.py film         writes film.csv anew
+    python docs/evidence/thin_film/make.py predict      rewrites predicted.csv
+    python docs/evidence/thin_film/make.py simulate     adds missing rows to simulated.csv
+    python docs/evidence/thin_film/make.py film         rewrites film.csv
     python docs/evidence/thin_film/make.py show         prints the tables of README.md
 
-A simulation takes two minutes of one core on 257 x 257 nodes and ten on 513 x 513. film.csv has
-what a loss of first order leaves of the film: surface 1 at 6 m/s on 257 x 257 nodes, eight moments
-of the last period.
+A simulation takes two minutes on one core on 257 x 257 nodes and ten on 513 x 513. film.csv has the
+remaining film over the first-order film reduction: surface 1 at 6 m/s on 257 x 257 nodes, eight
+moments of the last period.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ CASE = """
    rolloff_wavenumber = 7.85e4 shortest_wavelength = 8e-6 length_x = 512e-6 length_y = 512e-6
 /
 """
-# Seed, speed [m/s], flow, nodes a side
+# Seed, speed [m/s], flow, nodes per side
 RUNS = [
     (1, 6.0, "consistent", 257),
     (1, 3.0, "consistent", 257),
@@ -61,7 +61,7 @@ RUNS = [
     (2, 3.0, "consistent", 513),
 ]
 KEYS = ("seed", "speed", "flow", "points")
-# Distances from the centre [a], and the width of a bin of losses
+# Distances from the centre [a], and the width of a bin of film reductions
 RINGS, BIN = {"r < 0.7": (0.0, 0.7), "0.7 to 0.9": (0.7, 0.9)}, 0.2
 POSITIONS = 32
 NAMES = {
@@ -91,13 +91,13 @@ def case_of(seed: int, speed: float, flow: str, points: int = 257) -> pyehl.Case
 
 
 def predicted(seed: int, speed: float, flow: str) -> Row:
-    """Predict a case; `loss` is the greatest of first order over the smooth film."""
+    """Predict a case; `loss` is the maximum first-order film reduction over the smooth film."""
     summary = pyehl.predict(case_of(seed, speed, flow)).summary | {"loss": loss(seed, speed, flow)}
     return {name: summary[name] for name in NAMES["predicted.csv"]}
 
 
 def loss(seed: int, speed: float, flow: str) -> float:
-    """Greatest loss of film of first order over a passage, over the smooth film."""
+    """Maximum first-order film reduction over a passage, over the smooth film."""
     settings = case_of(seed, speed, flow).resolve()
     point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     tile = surfaces.from_settings(settings, point, None)
@@ -105,15 +105,15 @@ def loss(seed: int, speed: float, flow: str) -> float:
     model = Model.of_one(tile, solve_contact(settings), point, oil, ModelOptions(), ratio)
     waves = model.components()
     contact, pixels = model.rough_contact(waves), waves[0].spectrum.shape[0]
-    greatest = 0.0
+    result = 0.0
     for step in range(POSITIONS):
-        lost = contact.change((step * pixels // POSITIONS, 0))[..., 0] / contact.smooth_film()
-        greatest = max(greatest, float(lost.max(where=contact.inside, initial=0.0)))
-    return greatest
+        reduction = contact.change((step * pixels // POSITIONS, 0))[..., 0] / contact.smooth_film()
+        result = max(result, float(reduction.max(where=contact.inside, initial=0.0)))
+    return result
 
 
 def film() -> list[Row]:
-    """Give the simulated film over the smooth one in bins of the predicted loss of first order."""
+    """Compute simulated over smooth film in bins of the predicted first-order film reduction."""
     sys.path.insert(0, str(HERE.parent / "fields"))
     fields = importlib.import_module("fields")
     case = case_of(1, 6.0, "consistent")
@@ -123,17 +123,18 @@ def film() -> list[Row]:
     parts = []
     for moment in fields.simulate(case):
         contact, change, *_ = fields.at(moment, passage, start)
-        lost = change[..., 0] / contact.smooth_film()
-        left = [fields.on_points(f, moment, contact) for f in (moment.film, moment.smooth_film)]
-        values = np.stack([contact.radius, lost, left[0] / left[1]])
+        reduction = change[..., 0] / contact.smooth_film()
+        films = [fields.on_points(f, moment, contact) for f in (moment.film, moment.smooth_film)]
+        values = np.stack([contact.radius, reduction, films[0] / films[1]])
         parts.append(values[:, contact.inside])
-    radius, lost, left = np.concatenate(parts, axis=1)
+    radius, reduction, ratio = np.concatenate(parts, axis=1)
     rows = []
     for place, (inner, outer) in RINGS.items():
         for low in BIN * np.arange(-5, 6):
-            here = (radius >= inner) & (radius < outer) & (lost >= low) & (lost < low + BIN)
+            here = (radius >= inner) & (radius < outer)
+            here &= (reduction >= low) & (reduction < low + BIN)
             if here.any():
-                numbers = lost[here].mean(), left[here].mean(), left[here].std()
+                numbers = reduction[here].mean(), ratio[here].mean(), ratio[here].std()
                 bounds = round(low, 1), round(low + BIN, 1)
                 values = place, *bounds, np.count_nonzero(here), *(float(v) for v in numbers)
                 rows.append(dict(zip(NAMES["film.csv"], values, strict=True)))
@@ -170,19 +171,19 @@ def write(name: str, rows: list[Row]) -> None:
 
 
 def number(row: Row, name: str) -> float:
-    """Give a number of a table; NaN where there is none."""
+    """Give a number of a table; NaN for an empty cell."""
     return float(row[name] or math.nan)
 
 
 def with_error(value: float, error: float, form: str) -> str:
-    """Give a number with its error, or without one."""
+    """Format a number, with its error if it is known."""
     if not math.isfinite(value):
         return "–"
     return format(value, form) + (f" ± {error:{form}}" if math.isfinite(error) else "")
 
 
 def lines() -> list[str]:
-    """Give the table of predicted beside simulated."""
+    """Make the table of predictions and simulations."""
     known = {tuple(row[k] for k in KEYS[:3]): row for row in read("predicted.csv")}
     result = [
         "| surface | speed [m/s] | flow | predicted μ_r/μ_s | minimum film [nm] | nodes "
@@ -198,10 +199,10 @@ def lines() -> list[str]:
         ):
             text = with_error(number(values, "mu_ratio"), number(values, error), ".4f")
             ratios.append(text if values["status"] == good else values["status"])
-        least = [1e9 * number(said, name) for name in ("h_min_rough_m", "h_min_rough_error_m")]
+        minimum = [1e9 * number(said, name) for name in ("h_min_rough_m", "h_min_rough_error_m")]
         cells = [
             *(row["seed"], f"{float(row['speed']):g}", row["flow"], ratios[0]),
-            *(with_error(*least, ".0f"), row["points"], ratios[1]),
+            *(with_error(*minimum, ".0f"), row["points"], ratios[1]),
             with_error(1e9 * number(row, "h_min_rough_m"), math.nan, ".0f"),
             with_error(number(row, "P_max_rough"), math.nan, ".1f"),
         ]
@@ -210,7 +211,7 @@ def lines() -> list[str]:
 
 
 def film_lines() -> list[str]:
-    """Give the table of the film that a loss leaves, beside `film_left`."""
+    """Make the table of the remaining film over its reduction, with `film_left`."""
     rows = read("film.csv")
     result = [
         "| first-order loss | below 0.7 a | 0.7 to 0.9 a | `film_left` |",

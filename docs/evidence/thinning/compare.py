@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compare measured waves with the response: ``waves.csv``, and what it comes to.
+"""Compare measured waves with the response: writes ``waves.csv``, and prints deviations.
 
     python docs/evidence/thinning/compare.py [FOLDER]
 
 FOLDER has the runs of ``waves.py``; without it the measured waves are those of ``waves.csv``.
 
-T is predicted with pressure and film of the smooth contact on 257 x 257 nodes, so that the error of
-that grid in the smooth contact is not in the comparison. What the grid does to the wave in the
-inlet is not in it either: the inlet transfer, for a grid without error, is multiplied by what the
-Newtonian twin of a run shows to be the ratio of the two. ``waves.csv`` has T with and without that.
+T is predicted with pressure and film of the smooth contact on 257 x 257 nodes, so that the grid
+error of the smooth contact does not enter the comparison. Nor does that of the wave in the inlet:
+the inlet transfer, for a grid without error, is multiplied by its ratio to the measured one of the
+Newtonian twin of a run. ``waves.csv`` has T with and without this factor.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from pyehl.theory.transport import Zone, transport, zone_on
 Array, Complex = NDArray[np.float64], NDArray[np.complex128]
 Measured = tuple[Array, Array, Complex]
 HERE = Path(__file__).parent
-# Of the domain [a]
+# Length of the domain [a]
 SIDE = 4.0
 STATIONS = np.array([-0.5, 0.0, 0.5])
 COLUMNS = (
@@ -70,7 +70,7 @@ def of_table() -> dict[str, Measured]:
 
 
 class Waves:
-    """Measured waves of a run, and what the response makes of them."""
+    """Measured waves of a run, and their prediction by the response."""
 
     def __init__(self, run: Run, measured: Measured) -> None:
         self.kx, self.ky, self.measured = measured
@@ -83,7 +83,7 @@ class Waves:
     def predicted(self, of_grid: Complex | float = 1.0, newtonian: Zone | None = None) -> Complex:
         """T at the STATIONS (m, 3).
 
-        `of_grid`: what the grid makes of the inlet transfer; `newtonian`: the smooth contact of the
+        `of_grid`: factor of the grid on the inlet transfer; `newtonian`: the smooth contact of the
         twin.
         """
         o, spacing = self.operating, SIDE / (self.points - 1)
@@ -99,7 +99,7 @@ class Waves:
         return np.stack(result, axis=-1)
 
     def of_grid(self) -> Complex:
-        """Give what the grid makes of the inlet transfer, of Newtonian waves."""
+        """Factor of the grid on the inlet transfer, from Newtonian waves."""
         none, whole = self.predicted(of_grid=0.0)[:, 0], self.predicted()[:, 0]
         return np.asarray((self.measured[:, 0] - none) / (whole - none))
 
@@ -119,7 +119,7 @@ def zone(settings: dict[str, dict[str, Any]], operating: OperatingPoint, points:
 
 
 def predicted(waves: Waves, newtonian: Waves) -> tuple[Complex, Complex]:
-    """T at the STATIONS, with what the twin shows the grid to do and without (m, 3)."""
+    """T at the STATIONS, with and without the factor of the grid from the twin (m, 3)."""
     plain = waves.predicted(newtonian=newtonian.zone)
     if np.isnan(newtonian.measured).all():
         return plain, plain
@@ -127,13 +127,13 @@ def predicted(waves: Waves, newtonian: Waves) -> tuple[Complex, Complex]:
 
 
 def main(arguments: list[str]) -> None:
-    """Write the table and print what each run deviates by."""
+    """Write the table and print the deviations of each run."""
     measured = of_runs(Path(arguments[0])) if arguments else of_table()
     rows: list[list[str]] = []
     worst = []
     for name, run in PLAN.items():
         waves = Waves(run, measured[name])
-        # on a finer grid there is no twin: with NaNs for its waves
+        # a run on a finer grid has no twin: NaN for its waves
         nothing = waves.kx, waves.ky, np.full_like(waves.measured, np.nan)
         newtonian = Waves(twin(run), measured.get(f"{name}-newtonian", nothing))
         film = waves.film / newtonian.film
@@ -165,10 +165,10 @@ def main(arguments: list[str]) -> None:
             flush=True,
         )
     whole = np.concatenate(worst)
-    share = np.count_nonzero(whole <= 0.03) / whole.size
+    fraction = np.count_nonzero(whole <= 0.03) / whole.size
     print(
         f"{whole.size} waves at X = 0: rms {np.sqrt(np.mean(whole**2)):.4f}, largest "
-        f"{whole.max():.4f}, {share:.1%} within 0.03"
+        f"{whole.max():.4f}, {fraction:.1%} within 0.03"
     )
     with (HERE / "waves.csv").open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")

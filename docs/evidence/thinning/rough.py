@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rough surfaces in lubricants that thin: predicted, then simulated.
+"""Rough surfaces in shear-thinning lubricants: predicted, then simulated.
 
     python docs/evidence/thinning/rough.py predict      writes predicted.csv
-    python docs/evidence/thinning/rough.py commit       adds what was not simulated to committed.csv
-    python docs/evidence/thinning/rough.py simulate     adds what is missing to simulated.csv
-    python docs/evidence/thinning/rough.py fine         adds what is missing to fine.csv
+    python docs/evidence/thinning/rough.py commit       adds new cases to committed.csv
+    python docs/evidence/thinning/rough.py simulate     adds missing rows to simulated.csv
+    python docs/evidence/thinning/rough.py fine         adds missing rows to fine.csv
     python docs/evidence/thinning/rough.py compare [committed.csv [fine.csv]]      prints both
 
 A simulation is on 257 x 257 nodes and takes one to three minutes on one core; those of fine.csv are
@@ -66,7 +66,7 @@ QUANTITIES = {
     "h_min_rough_m": "h_min_rough_error_m",
     "rms_deformed_m": "rms_deformed_error_m",
 }
-"""What is compared, and its stated error."""
+"""Compared quantities, and their stated errors."""
 
 PLAN: dict[str, Row] = {
     "e1": Row(TABLE1, f"{EYRING} 5e6", 1.01, 5e-8, 0.8, 11),
@@ -89,7 +89,7 @@ PLAN: dict[str, Row] = {
     "e16": Row(by_moes(800.0, 15.0), f"{EYRING} 6e6", 1.15, 6e-8, 0.8, 26),
     "e17": Row(by_moes(1000.0, 5.0), f"{EYRING} 5e6", 1.01, 1.5e-8, 0.8, 27),
     "e18": Row(by_moes(600.0, 10.0), f"{EYRING} 1e7", 0.97, 5e-8, 0.7, 28, 1.25),
-    # simulated later: nothing of the prediction was chosen with these in view
+    # simulated later: not used to develop the prediction
     "f1": Row(TABLE1, f"{EYRING} 1e7", 1.02, 5e-8, 0.8, 41),
     "f2": Row(by_moes(400.0, 9.0), f"{EYRING} 5e6", 1.03, 5e-8, 0.7, 42, 1.25),
     "f3": Row(by_moes(700.0, 12.0), f"{CARREAU} 5e6 carreau_exponent = 0.6", 0.98, 5e-8, 0.8, 43),
@@ -100,7 +100,7 @@ PLAN: dict[str, Row] = {
     ),
     "f7": Row(BALL, f"{THICK} {EYRING} 5e6", 1.01, 8e-8, 0.8, 47),
     "f8": Row(by_moes(900.0, 7.0), f"{EYRING} 5e6", 0.9, 2e-8, 0.7, 48),
-    # predicted with the response of today before they were simulated
+    # predicted with the present response before their simulation
     "g1": Row(by_moes(1000.0, 11.0), f"{EYRING} 6e6", 1.03, 5e-8, 0.8, 61),
     "g2": Row(by_moes(300.0, 9.0), f"{EYRING} 5e6", 0.96, 3.5e-8, 0.8, 62, 1.25),
     "g3": Row(by_moes(600.0, 13.0), f"{CARREAU} 5e6 carreau_exponent = 0.5", 1.02, 6e-8, 0.8, 63),
@@ -113,7 +113,7 @@ PLAN: dict[str, Row] = {
     "g8": Row(by_moes(800.0, 9.0), f"{EYRING} 8e6", 1.0, 4e-8, 0.8, 68),
     "g9": Row(TABLE1, f"{EYRING} 5e6", 0.9, 4.5e-8, 0.7, 69, 1.25),
     "g10": Row(by_moes(1800.0, 14.0), f"{EYRING} 1e7", 1.04, 6e-8, 0.8, 70),
-    # drawn at random, predicted before they were simulated
+    # drawn at random, predicted before their simulation
     "h1": Row(
         by_moes(847.0, 13.6),
         f"{CARREAU} 1.1e+07 carreau_exponent = 0.72",
@@ -232,10 +232,10 @@ def read(path: Path) -> dict[str, dict[str, Any]]:
 
 
 def compare(predictions: dict[str, dict[str, Any]], simulations: dict[str, dict[str, Any]]) -> None:
-    """Print predicted beside simulated, and how many deviations the stated errors cover.
+    """Print predictions, simulations, and how many deviations the stated errors cover.
 
-    The minimum film is compared with that of a grid without error: what the smooth contact misses
-    on the grid of the simulations is added to the simulated one.
+    The minimum film is compared with that of a grid without error: the grid error of the smooth
+    contact on the grid of the simulations is added to the simulated one.
     """
     covered: dict[str, list[bool]] = {name: [] for name in QUANTITIES}
     relative: dict[str, list[float]] = {name: [] for name in QUANTITIES}
@@ -271,12 +271,12 @@ def compare(predictions: dict[str, dict[str, Any]], simulations: dict[str, dict[
 
 
 def error_of(said: dict[str, Any], name: str, value: float) -> str:
-    """Give a stated error, relative."""
+    """Format a stated error, relative to the value."""
     return f"{float(said[name]) / value:.2%}" if said[name] else "unknown"
 
 
 def add(path: Path, names: Iterable[str], points: int) -> None:
-    """Simulate what a table lacks."""
+    """Simulate the missing rows of a table."""
     result = read(path)
     for name in names:
         if name not in result:

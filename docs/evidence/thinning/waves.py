@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measure waves in lubricants that thin: ``NAME.npz``, one file per run of `PLAN`.
+"""Measure waves in shear-thinning lubricants: ``NAME.npz``, one file per run of `PLAN`.
 
     python docs/evidence/thinning/waves.py FOLDER [NAME ...]
 
-Each run is a tile of 4 a with 25 waves of small amplitude on 257 x 257 nodes, as those of
-docs/evidence/response, and each has a twin with Newtonian flow, ``NAME-newtonian``; two more are on
-513 x 513 nodes. A run whose file is there is not made again.
+Each run is a tile of 4 a with 25 waves of small amplitude on 257 x 257 nodes, as in
+docs/evidence/response, and has a twin with Newtonian flow, ``NAME-newtonian``; two more are on
+513 x 513 nodes. Existing files stay.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from pyehl.theory.operating import OperatingPoint
 
 POINTS = 257
 TILE = 4.0
-# Way of the slowest wave [a] before the record begins
+# Distance that the slowest wave travels before the record begins [a]
 SETTLED = 4.0
-# Wavelengths per tile along the motion: eight nodes a wavelength at least
+# Wavelengths per tile along the motion: at least eight nodes per wavelength
 ALONG = (*range(1, 17), 18, 19, 20, 22, 24, 26, 28, 30, 32)
-# Angles [deg] of the crests to those across the motion, one wave after the other
+# Angles of the crests of consecutive waves from across the motion [deg]
 ANGLES = {
     "even": (85, 0, 45, 26, 0, 63, 45, 0, 30, 56, 0, 45, 70, 18, 0, 45, 60, 0, 35, 50, 0, 70, 22),
     "steep": (85, 80, 70, 76, 84, 66, 73, 87, 62, 79, 83, 68, 75, 86, 64, 81, 71, 77, 60, 82, 74),
@@ -50,7 +50,7 @@ THICK = "viscosity = 0.5 pressure_viscosity = 1.8e-8"
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """A contact with a lubricant and the waves that are sent through it."""
+    """A contact with a lubricant, and the waves that pass through it."""
 
     contact: str  # keys of the group
     lubricant: str
@@ -126,7 +126,7 @@ def waves_of(run: Run) -> WaveSet:
 
 
 def case_of(run: Run) -> Case:
-    """Contact, lubricant and velocity ratio of a run as a case."""
+    """Make the case of contact, lubricant and velocity ratio of a run."""
     text = (
         f"&contact {run.contact} /\n&lubricant {run.lubricant} /\n"
         f"&surface velocity_ratio = {run.velocity_ratio} /\n"
@@ -135,7 +135,7 @@ def case_of(run: Run) -> Case:
 
 
 def main(arguments: list[str]) -> None:
-    """Measure what is not there."""
+    """Measure missing runs."""
     folder = Path(arguments[0])
     folder.mkdir(parents=True, exist_ok=True)
     for name, run in runs().items():

@@ -18,7 +18,7 @@ INTERVALS = (110, 220, 440, 256, 512, 1024, 2048)
 
 
 def ours(nodes: int) -> tuple[float, float]:
-    """Solve strictly, with P = 0 at both ends."""
+    """Solve to a small algebraic error, with P = 0 at both ends."""
     changes = {
         "contact.shape": "line",
         "contact.moes_m_line": 100,

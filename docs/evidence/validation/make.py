@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Results beside values of other programs and film formulas: python make.py.
+"""Results compared with other programs and film formulas: python make.py.
 
-Runs all cases (some minutes of one processor), writes table.csv, formulas.csv and validation.png
+Runs all cases (several minutes on one processor), writes table.csv, formulas.csv and validation.png
 beside this file, and prints the tables of docs/validation.md. `python make.py show` prints and
 draws from the stored files.
 """
@@ -129,7 +129,7 @@ def ellipses() -> Iterator[tuple[Any, ...]]:
 
 
 def waviness() -> Iterator[tuple[Any, ...]]:
-    """Waves that move, on the same grid and by the same scheme."""
+    """Waves in motion, on the same grid and by the same scheme."""
     for row in table_of(resources.files("pyehl") / "studies" / "references" / "waviness.csv"):
         if int(row["grid.points"]) > 257:
             continue
@@ -148,9 +148,9 @@ def waviness() -> Iterator[tuple[Any, ...]]:
 
 
 def thinning() -> Iterator[tuple[Any, ...]]:
-    """Oils that thin in the flow, limits of fine grids."""
+    """Oils with shear thinning of the flow, limits of fine grids."""
     for case, (options, theirs) in THINNING.items():
-        # the film of Table 1 is a third as thick
+        # the film of Table 1 is a third as thick and needs finer grids
         grids = (129, 257) if "carreau" in str(options) else (257, 513)
         coarse, fine = (solved(PLACE | options, points) for points in grids)
         for name, value in theirs.items():
@@ -183,7 +183,7 @@ def write(path: Path, columns: tuple[str, ...], rows: Iterator[tuple[Any, ...]])
 
 @styled()
 def draw(rows: list[dict[str, str]]) -> None:
-    """Draw films by formula over those of pyehl: a colour a formula, a marker a value of L."""
+    """Draw films by formula over those of pyehl: a colour per formula, a marker per value of L."""
     figure = new_figure(PAGE, 2.9)
     axes = figure.subplots(1, 2, sharex=True)
     names = sorted({row["formula"] for row in rows})
@@ -197,7 +197,7 @@ def draw(rows: list[dict[str, str]]) -> None:
                     for row in rows
                     if (row["formula"], row["quantity"], row["moes_l"]) == (name, quantity, moes_l)
                 ]
-                # the formulas of H_min lie on each other: one has open markers
+                # the formulas of H_min overlap: one has filled markers, the others open ones
                 face = colour if name == names[0] else "none"
                 how = {"marker": marker, "color": colour, "lw": 1.0, "mfc": face, "ms": 4.0}
                 if chosen:

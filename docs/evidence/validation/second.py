@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Films of ellipses by the second solver, beside those of C and of pyehl on the same cells.
+"""Films of ellipses by the second solver, the C program, and pyehl on the same cells.
 
 python docs/evidence/validation/second.py CELLS KAPPA ...    appends to second.csv: cells of 1/CELLS
 """
@@ -22,7 +22,7 @@ COLUMNS = ("moes_m", "moes_l", "kappa", "y_extent", "cells", "quantity", "second
 
 
 def ours(row: dict[str, str], cells: int) -> dict[str, float]:
-    """Solve a row strictly, on the domain and by the cells of the second solver."""
+    """Solve a row to a small algebraic error, on domain and cells of the second solver."""
     side = float(row["y_extent"])
     changes = {
         "contact.moes_m": float(row["moes_m"]),
@@ -43,7 +43,7 @@ def ours(row: dict[str, str], cells: int) -> dict[str, float]:
 
 
 def main() -> None:
-    """Solve the rows of the table of C with a mesh of a/32 by other cells, too."""
+    """Solve the rows of the C program with a mesh of a/32, on cells of 1/CELLS."""
     sys.path.insert(0, str(ROOT / "tests" / "cases"))
     from second_solver import SecondSolver  # noqa: PLC0415 (a file of the tests)
 

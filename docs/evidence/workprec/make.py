@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Make workprec.csv and workprec.png from what the benchmark measured.
+"""Make workprec.csv and workprec.png from the results of the benchmark.
 
 python benchmarks/workprec.py --full -o workprec.json
 python docs/evidence/workprec/make.py workprec.json
 python docs/evidence/workprec/make.py            # draws the stored table
 
-Problems may have been measured one at a time (``--problems``): several files are put together.
+Problems may have been measured one at a time (``--problems``); several files are merged.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ HERE = Path(__file__).resolve().parent
 
 
 def main(files: list[str]) -> None:
-    """Write the table of these files, and the figure."""
+    """Write the table of the files, and draw the figure."""
     if files:
         write([row for file in files for row in json.loads(Path(file).read_text())["rows"]])
     # the film and one panel of each rough problem
@@ -43,7 +43,7 @@ def write(rows: list[dict[str, Any]]) -> None:
 
 
 def read() -> list[dict[str, Any]]:
-    """Rows of the table; words stay words, empty cells are None."""
+    """Rows of the table: numbers, words, and None for empty cells."""
     with (HERE / "workprec.csv").open(newline="", encoding="utf-8") as stream:
         return [{name: value_of(cell) for name, cell in r.items()} for r in csv.DictReader(stream)]
 
