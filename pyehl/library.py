@@ -54,7 +54,7 @@ def version() -> str:
 def build() -> str:
     """Compiler of the compiled library and its options, without paths and warnings."""
     words = returned(functions.about()[1]).split(" ")
-    # the path after a lone -I or -J is a word of its own
+    # the path after a lone -I or -J is a separate word
     left_out = {
         i + shift
         for i, word in enumerate(words)

@@ -348,12 +348,12 @@ def _need(v: Values) -> Iterator[str]:
     if v.get("move") and not v["steps"] and not v["duty"]:
         text += ", if it ends as early as it can"
     yield text
-    minimum, most = v["frames_min"], v["frames_max"]
-    if most > 0.0:
+    minimum, maximum = v["frames_min"], v["frames_max"]
+    if maximum > 0.0:
         every = "after every step: output.frame_interval is no longer than a step"
         if v["frame_interval"] > v["mesh_x"]:
             every = f"one in {v['frame_interval']} a/u"
-        at_most = f", at most {most:.0f}," if most > minimum else ""
+        at_most = f", at most {maximum:.0f}," if maximum > minimum else ""
         yield f"frames     {every}, about {minimum:.0f}{at_most} of P and H"
 
 

@@ -24,7 +24,7 @@ KINDS = {"s": "solution", "p": "prediction", "f": "film", "r": "response", "t": 
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """One quantity: its name, unit ('-' for none, '' for what is no number), meaning and kinds."""
+    """One quantity: its name, unit ('-' for none, '' if it is not a number), meaning and kinds."""
 
     name: str
     unit: str

@@ -133,9 +133,9 @@ def tiles(made: Prediction) -> tuple[Array, Array, float, float, float]:
     """Roughness before and in the contact (n, m) [nm], sizes [mm], maximum of the scale [nm]."""
     before = np.ascontiguousarray(made.surface.heights.T) * 1e9
     after = np.ascontiguousarray(made.friction.response.deformed.T) * 1e9
-    most = max(1e-9, float(np.abs(before - before.mean()).max()))
+    top = max(1e-9, float(np.abs(before - before.mean()).max()))
     size = made.surface.length_x * 1e3, made.surface.length_y * 1e3
-    return before - before.mean(), after - after.mean(), *size, most
+    return before - before.mean(), after - after.mean(), *size, top
 
 
 def octaves(made: Prediction) -> dict[str, list[float]]:

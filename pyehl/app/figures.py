@@ -219,8 +219,8 @@ class Pictures:
             self.changes.send()
             return
         change = self.changes.of
-        before, after, width, height, most = drawing.tiles(made)
-        change(self.heights, low=-most, high=most)
+        before, after, width, height, top = drawing.tiles(made)
+        change(self.heights, low=-top, high=top)
         tiles = {"before": [before.astype(np.float32)], "after": [after.astype(np.float32)]}
         place = {"x": [0.0], "y": [0.0], "dw": [width], "dh": [height]}
         change(self.tiles, data={**tiles, **place})

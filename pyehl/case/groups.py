@@ -397,7 +397,7 @@ class Psd:
 
 @dataclass(slots=True)
 class Output:
-    """``&output``: what is written."""
+    """``&output``: the files that are written."""
 
     fields: bool = truth(True, "write the fields X, Y, P, H")
     frame_interval: float = real(

@@ -142,7 +142,7 @@ def read_machine(
     options: Iterable[Option],
     kinds: Sequence[str],
 ) -> Machine:
-    """Read a file with one of the groups `kinds`, or without a file the options alone.
+    """Read a file with one of the groups `kinds`, or without a file only the options.
 
     InputError with file, line and column if it is not acceptable.
     """

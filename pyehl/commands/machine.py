@@ -40,8 +40,8 @@ def execute_machine(args: argparse.Namespace, command: str, kinds: tuple[str, ..
     tasks = todo.tasks.tasks
 
     def plan(done: Sequence[int]) -> str:
-        left = [task.seconds for task in tasks if task.number not in set(done)]
-        time = duration(wall_seconds(left, jobs)) if left else "nothing left"
+        remaining = [task.seconds for task in tasks if task.number not in set(done)]
+        time = duration(wall_seconds(remaining, jobs)) if remaining else "nothing left"
         return f"contacts   {len(todo.films)}, {len(tasks)} to run ({todo.run}): about {time}"
 
     quiet = args.quiet or args.json

@@ -104,8 +104,8 @@ def _measured_and_fitted(
 ) -> tuple[Figure, Axes]:
     figure = new_figure(COLUMN, 2.5)
     ax = figure.subplots()
-    how = {"fmt": "k^", "ms": 4, "mfc": "none", "capsize": 2, "lw": 0.8}
-    points(ax, places, measured, error, **how)
+    marks = {"fmt": "k^", "ms": 4, "mfc": "none", "capsize": 2, "lw": 0.8}
+    points(ax, places, measured, error, **marks)
     ax.plot([], [], "k^", mfc="none", label="measured")
     ax.plot(*curve, "o-", ms=3, color=BLUE, label=words)
     ax.legend()

@@ -40,8 +40,8 @@ class Points:
 
     def draw(self, ax: Axes, abscissa: str) -> None:
         """Draw them, with bars where an error is known."""
-        how = {"fmt": "k^", "ms": 4, "mfc": "none", "capsize": 2, "lw": 0.8, "label": "measured"}
-        style.points(ax, self.places[abscissa], self.friction, self.error, **how)
+        marks = {"fmt": "k^", "ms": 4, "mfc": "none", "capsize": 2, "lw": 0.8, "label": "measured"}
+        style.points(ax, self.places[abscissa], self.friction, self.error, **marks)
 
 
 @style.styled()
@@ -153,9 +153,9 @@ def _draw_curve(ax: Axes, curve: Curve, colour: str) -> None:
         style.band(ax, x, y, width, color=colour, alpha=alpha, label=label)
     full = curve.friction("mu_ratio_ehl")
     if np.isfinite(full).any():
-        how = {"fmt": "s", "ms": 5, "mfc": "white", "color": colour, "capsize": 3}
+        marks = {"fmt": "s", "ms": 5, "mfc": "white", "color": colour, "capsize": 3}
         error = curve.friction("mu_ratio_ehl_error")
-        style.points(ax, x, full, error, label="full simulation", **how)
+        style.points(ax, x, full, error, label="full simulation", **marks)
 
 
 def _shade(ax: Axes, curves: Sequence[Curve]) -> None:

@@ -155,12 +155,12 @@ def colour_bar(
     beside = ax.inset_axes((1.0 + 0.8 * broad, 0.0, broad, 1.0))
     log = isinstance(image.norm, LogNorm)
     bar = ax.figure.colorbar(image, cax=beside, format=POWERS if log else None)
-    most = 3 if slender < FLAT else 7
+    ticks = 3 if slender < FLAT else 7
     if isinstance(image, ContourSet):
         levels = list(image.levels)
-        bar.set_ticks(levels[:: math.ceil(len(levels) / most)])
+        bar.set_ticks(levels[:: math.ceil(len(levels) / ticks)])
     elif not log:
-        bar.locator = MaxNLocator(most)
+        bar.locator = MaxNLocator(ticks)
         bar.update_ticks()
     if above or slender < FLAT:
         beside.set_title(label, loc="left" if above else "right", y=1.0)
@@ -184,7 +184,7 @@ def y_label(ax: Axes, label: str, colour: str) -> None:
     ax.tick_params(axis="y", colors=colour)
 
 
-def label_decades(*axes: Axis, most: int = 9) -> None:
+def label_decades(*axes: Axis, max_labels: int = 9) -> None:
     """Label the decades of logarithmic axes, or numbers between them if they are few."""
     for axis in axes:
         low, high = axis.get_view_interval()
@@ -192,7 +192,7 @@ def label_decades(*axes: Axis, most: int = 9) -> None:
             axis.set_major_formatter(POWERS)
             axis.set_minor_formatter(NullFormatter())
         else:
-            label_log_ticks(axis, most)
+            label_log_ticks(axis, max_labels)
 
 
 def few_ticks(ax: Axes) -> None:
@@ -332,10 +332,10 @@ def hertz_ticks(ax: Axes, outline: Outline = CIRCLE) -> None:
         axis.set_ticks(places, [f"{place:.3g}".replace("-", "−") for place in places])
 
 
-def label_log_ticks(axis: Axis, most: int = 9) -> None:
+def label_log_ticks(axis: Axis, max_labels: int = 9) -> None:
     """Label 1, 2 and 5 of each decade of a logarithmic axis with few decades.
 
-    At most `most` of them.
+    At most `max_labels` of them.
     """
     low, high = axis.get_view_interval()
     if high < 100.0 * low:
@@ -343,9 +343,11 @@ def label_log_ticks(axis: Axis, most: int = 9) -> None:
         places = np.outer(decades, (1.0, 2.0, 5.0)).ravel()
         places = places[(low <= places) & (places <= high)]
         if places.size < 2:
-            axis.set_major_locator(MaxNLocator(min(3, most - 1)))
+            axis.set_major_locator(MaxNLocator(min(3, max_labels - 1)))
         else:
-            axis.set_major_locator(FixedLocator(places[:: math.ceil(places.size / most)].tolist()))
+            axis.set_major_locator(
+                FixedLocator(places[:: math.ceil(places.size / max_labels)].tolist())
+            )
         axis.set_major_formatter(FuncFormatter(lambda value, _: _short(value)))
         axis.set_minor_formatter(NullFormatter())
 
@@ -359,14 +361,14 @@ def _short(value: float) -> str:
     return f"${factor}10^{{{int(power)}}}$"
 
 
-def points(ax: Axes, x: Array, y: Array, error: Array, **how: Any) -> None:  # noqa: ANN401
+def points(ax: Axes, x: Array, y: Array, error: Array, **options: Any) -> None:  # noqa: ANN401
     """Draw the finite ones of points (n,), with bars if an error is known."""
     known = np.isfinite(x) & np.isfinite(y)
     bars = np.nan_to_num(error[known])
-    ax.errorbar(x[known], y[known], bars if bars.any() else None, **how)
+    ax.errorbar(x[known], y[known], bars if bars.any() else None, **options)
 
 
-def band(ax: Axes, x: Array, y: Array, error: Array, **how: Any) -> None:  # noqa: ANN401
+def band(ax: Axes, x: Array, y: Array, error: Array, **options: Any) -> None:  # noqa: ANN401
     """Shade the error around a line (n,) that is already drawn, where it is known.
 
     The legend omits a band that is thinner than the line.
@@ -374,9 +376,9 @@ def band(ax: Axes, x: Array, y: Array, error: Array, **how: Any) -> None:  # noq
     known = np.isfinite(x) & np.isfinite(y) & np.isfinite(error)
     if known.any():
         if float(error[known].max()) < THIN_BAND * float(np.ptp(ax.get_ylim())):
-            how.pop("label", None)
+            options.pop("label", None)
         low, high = y[known] - error[known], y[known] + error[known]
-        ax.fill_between(x[known], low, high, lw=0, **how)
+        ax.fill_between(x[known], low, high, lw=0, **options)
 
 
 def height_unit(largest: float) -> tuple[float, str]:

@@ -56,11 +56,11 @@ def spectrum_map(topography: Topography, *, ax: Axes | None = None) -> Axes:
     """Two-dimensional spectrum C2D [m^4] of a tile over both wavenumbers."""
     ax = style.axes_or_new(ax, 3.6, 3.0)
     qx, qy, c2d = psd_2d(topography)
-    most = float(c2d.max())
+    maximum = float(c2d.max())
     extent = style.extent_of(qx, qy, 1e-6)
     image = ax.imshow(
-        np.maximum(c2d, FLOOR * most).T, origin="lower", extent=extent, cmap=style.SEQUENTIAL,
-        norm=LogNorm(vmin=FLOOR * most, vmax=most),
+        np.maximum(c2d, FLOOR * maximum).T, origin="lower", extent=extent, cmap=style.SEQUENTIAL,
+        norm=LogNorm(vmin=FLOOR * maximum, vmax=maximum),
     )  # fmt: skip
     slender = float(np.ptp(qy) / np.ptp(qx))
     style.colour_bar(image, ax, "C2D [m⁴]", slender=slender, above=True)
@@ -90,7 +90,7 @@ def spectrum_line(
     ax.loglog(1e-6 * q[shown], c_iso[shown], ".", ms=2.5, color=style.BLUE)
     ax.set_xlabel("|q| [rad/µm]")
     style.y_label(ax, C_ISO, style.BLUE)
-    style.label_decades(ax.xaxis, ax.yaxis, most=3)
+    style.label_decades(ax.xaxis, ax.yaxis, max_labels=3)
     twin = ax.twinx()
     for values, line, mark, label in (
         (deformed, "-", "o", "|T|"),

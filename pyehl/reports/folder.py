@@ -263,11 +263,11 @@ def _response(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Assessment
     settings = namelist.values(case)
     words = "Amplitude and lag of small waves over their length, beside the shipped response"
     within = bool(summary["within_fitted_range"])
-    rms, most = summary["shipped_difference_rms"], summary["shipped_difference_max"]
+    rms, maximum = summary["shipped_difference_rms"], summary["shipped_difference_max"]
     assessment = Assessment(
         "Holds" if within else "Take with care",
         f"{summary['waves']} waves; they differ from the shipped response by {rms:.2g} (rms) and "
-        f"{most:.2g} at most" + ("." if within else ", which was not fitted at such a point."),
+        f"{maximum:.2g} at most" + ("." if within else ", which was not fitted at such a point."),
         "pass" if within else "care",
     )
     parts = [page.heading("Conditions"), page.facts(conditions(settings))]

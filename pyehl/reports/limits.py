@@ -36,7 +36,7 @@ def limits(settings: Settings, summary: Values) -> list[str]:
         "pressure in the contact are isothermal.",
     ]
     if summary.get("temperature_rise_max_K") is not None:
-        result.append("The friction has the temperature of film and walls.")
+        result.append("The friction includes the temperature of film and walls.")
     elif summary.get("flash_temperature_K") is not None:
         result.append("The flash temperature is estimated, and not fed back into the friction.")
     if summary.get("kind") == "response":
@@ -47,9 +47,9 @@ def limits(settings: Settings, summary: Values) -> list[str]:
             "pressures. Shear thinning brings μ_r/μ_s close to 1."
         )
     elif law in ("eyring", "carreau") and flow == "newtonian":
-        result.append("The shear law thins the friction alone: film and waves are Newtonian.")
+        result.append("The shear law applies to the friction only: film and waves are Newtonian.")
     elif law == "limiting":
-        result.append("The limiting stress bounds the friction alone, not the flow.")
+        result.append("The limiting stress limits the friction, not the flow.")
     if (isinstance(point, LineContact) or point.moes_m >= 500.0) and settings["grid"][
         "border"
     ] != "flooded":
@@ -68,15 +68,15 @@ def limits(settings: Settings, summary: Values) -> list[str]:
         )
     if rough:
         result.append(
-            "μ_r/μ_s on the track of the case is that of one track of this surface at this slip. "
+            "μ_r/μ_s of the case is that of one track of this surface at this slip. "
             "Between tracks of one surface it scatters by about 10 %."
         )
     if len(rough) == 1 and str(settings[rough[0]]["kind"]) in FEATURES:
         result[-1] = "μ_r/μ_s is the mean over one passage of the feature."
     if predicted:
         result.append(
-            "It is a prediction from the spectrum: of second order in the height of the waves, for "
-            "waves that the film sustains."
+            "The prediction from the spectrum is of second order in the height of the waves, and "
+            "valid for waves that the film sustains."
         )
     return result
 
@@ -96,14 +96,11 @@ def _contact(settings: Settings, summary: Values) -> str:
     if boundary > 0.0:
         return "There is no solid contact at the boundary film: the film is full."
     if broken:
-        return (
-            "The film ends, and without lubricant.boundary_film contact of the bodies is not "
-            "computed."
-        )
+        return "The film ends, and without lubricant.boundary_film solid contact is not computed."
     return "The film is full: there is no mixed lubrication."
 
 
-def unheated(summary: Values) -> float | None:
+def neglected_flash(summary: Values) -> float | None:
     """Give a high flash temperature [K] that the friction does not include, else None."""
     heat = summary.get("flash_temperature_K")
     known = summary.get("temperature_rise_max_K") is not None
@@ -122,11 +119,11 @@ def warnings(summary: Values) -> list[str]:
         result.append(
             f"Outside of the range in which the response was measured: {', '.join(outside)}."
         )
-    heat = unheated(summary)
+    heat = neglected_flash(summary)
     if heat is not None:
         result.append(
-            f"The flash temperature is {heat:.3g} K: the oil in the contact is thinner than "
-            "computed, and the friction less."
+            f"The flash temperature is {heat:.3g} K: the oil in the contact is less viscous "
+            "than computed, and the friction lower."
         )
     left_out = summary.get("variance_left_out") or 0.0
     if left_out > 0.0:

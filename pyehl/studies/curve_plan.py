@@ -40,7 +40,7 @@ MAX_SURFACES = 1000
 class CurvePoint:
     """One point of a curve and its tasks."""
 
-    point: Point  # its place and what is varied
+    point: Point  # its index and varied values
     settings: Settings  # the resolved case
     smooth: int  # number of the task that solves the smooth contact
     # Numbers of the prediction tasks, one for each surface; empty for a smooth one
@@ -52,7 +52,7 @@ class CurvePoint:
 class CurvePlan:
     """A curve to be computed."""
 
-    study: Study  # what is varied
+    study: Study  # the varied keys
     points: tuple[CurvePoint, ...]  # points in the order of the table
     tasks: tuple[Task, ...]  # all tasks
     surfaces: int  # surfaces at each point
@@ -67,9 +67,9 @@ class CurvePlan:
         return result | {"run": "stribeck", "surfaces": self.surfaces, "ehl": full}
 
     def text(self, jobs: int, done: Sequence[int] = ()) -> str:
-        """Report the plan in a few lines, for `jobs` worker processes and the tasks left."""
+        """Report the plan in a few lines, for `jobs` worker processes and the remaining tasks."""
         finished = set(done)
-        left = [t.seconds for t in self.tasks if t.number not in finished]
+        remaining = [t.seconds for t in self.tasks if t.number not in finished]
         full = sum(p.full is not None for p in self.points)
         each = "surface" if self.surfaces == 1 else f"{self.surfaces} surfaces"
         rough = any(p.predictions for p in self.points)
@@ -81,8 +81,8 @@ class CurvePlan:
         ]
         if finished:
             lines.append(f"           {len(finished)} of {len(self.tasks)} tasks are done")
-        if left:
-            lines.append(f"time       about {duration(wall_seconds(left, jobs))} by estimate")
+        if remaining:
+            lines.append(f"time       about {duration(wall_seconds(remaining, jobs))} by estimate")
         return "\n".join(lines)
 
 

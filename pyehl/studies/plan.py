@@ -166,7 +166,7 @@ class Remaining:
 
     @property
     def count(self) -> int:
-        """Number of tasks left."""
+        """Number of remaining tasks."""
         return len(self._tasks)
 
     @property
@@ -188,13 +188,13 @@ class Remaining:
         """Remaining wall time [s]: each kind of task is scaled by its finished ones."""
         done, estimated = sum(self._measured.values()), sum(self._estimated.values())
         mean = done / estimated if estimated else 1.0
-        left = sum(
+        remaining = sum(
             seconds * (self._measured[run] / self._estimated[run] if self._estimated[run] else mean)
             for run, seconds in self._left.items()
         )
         if self._workers:
-            return left / self._workers
-        return left * (time.monotonic() - self._began) / done if done else left
+            return remaining / self._workers
+        return remaining * (time.monotonic() - self._began) / done if done else remaining
 
 
 def wall_seconds(seconds: Sequence[float], jobs: int, repeat: float = 1.0) -> float:
@@ -252,9 +252,9 @@ class Plan:
         return self.study.identity(self.tasks[0].text, self.files)
 
     def text(self, jobs: int, done: Sequence[int] = ()) -> str:
-        """Report the plan in a few lines, for `jobs` worker processes and the cases left."""
+        """Report the plan in a few lines, for `jobs` worker processes and the remaining cases."""
         finished = set(done)
-        left = [t for t in self.tasks if t.number not in finished]
+        remaining = [t for t in self.tasks if t.number not in finished]
         names = " x ".join(
             f"{len(axes[0].values)} {' with '.join(a.key for a in axes)}"
             for axes in self.study.dimensions
@@ -268,10 +268,10 @@ class Plan:
             )
         if finished:
             lines.append(f"           {len(finished)} of them are done")
-        if not left:
+        if not remaining:
             return "\n".join(lines)
-        seconds = [t.seconds for t in left]
-        workers = min(jobs, len(left))
+        seconds = [t.seconds for t in remaining]
+        workers = min(jobs, len(remaining))
         words = "1 worker process" if workers == 1 else f"{workers} worker processes"
         lines.append(
             f"time       about {duration(wall_seconds(seconds, jobs, size / checked))} by "

@@ -85,12 +85,12 @@ def gather(
         if retry:
             for number in [n for n, row in rows.items() if row.get("status") == FAILED]:
                 del rows[number]
-        left = [task for task in tasks if task.number not in rows]
-        jobs = min(jobs or pool.processors(), len(left))
+        waiting = [task for task in tasks if task.number not in rows]
+        jobs = min(jobs or pool.processors(), len(waiting))
         watcher.began(tasks, sorted(rows), 0 if scheduler else jobs)
         outcome = Outcome(rows)
         began = written = time.monotonic()
-        workers = pool.cluster_rows(left, scheduler) if scheduler else pool.rows(left, jobs)
+        workers = pool.cluster_rows(waiting, scheduler) if scheduler else pool.rows(waiting, jobs)
         try:
             # an interrupted transaction of the journal is complete or absent
             with signals_to(signal.default_int_handler), closing(workers) as source:

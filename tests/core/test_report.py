@@ -209,7 +209,7 @@ def test_heat_that_the_friction_has_is_no_warning(root):
     assert "not fed back" in " ".join(limits(settings, hot))
     assert "14.3 K" in " ".join(warnings(hot))
     heated = hot | {"temperature_rise_max_K": 17.0}
-    assert "The friction has the temperature of film and walls" in " ".join(
+    assert "The friction includes the temperature of film and walls" in " ".join(
         limits(settings, heated)
     )
     assert "not fed back" not in " ".join(limits(settings, heated))

@@ -55,7 +55,7 @@ class Run:
     contact: str  # keys of the group
     lubricant: str
     velocity_ratio: float  # the slide-to-roll ratio is twice its distance from 1
-    angles: str = "even"  # of ANGLES
+    angles: str = "even"  # key of ANGLES
     points: int = POINTS  # nodes per side
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Films of ellipses by the second solver, the C program, and pyehl on the same cells.
 
-python docs/evidence/validation/second.py CELLS KAPPA ...    appends to second.csv: cells of 1/CELLS
+python docs/evidence/validation/second.py CELLS KAPPA ...    appends to second.csv: cells of a/CELLS
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def ours(row: dict[str, str], cells: int) -> dict[str, float]:
 
 
 def main() -> None:
-    """Solve the rows of the C program with a mesh of a/32, on cells of 1/CELLS."""
+    """Solve the rows of the C program with a mesh of a/32, on cells of a/CELLS."""
     sys.path.insert(0, str(ROOT / "tests" / "cases"))
     from second_solver import SecondSolver  # noqa: PLC0415 (a file of the tests)
 
