@@ -8,7 +8,7 @@ import pytest
 from machine_options import BALLS, E_STEEL, FZG, ROLLERS, TAPERED, bearing, made
 
 import pyehl
-from pyehl.machines.bearing import TURN
+from pyehl.machines.bearing import RPM
 from pyehl.machines.equilibrium import (
     BALL,
     ROLLER,
@@ -206,12 +206,12 @@ def test_velocities_of_a_bearing():
     for options, d in ((BALLS, 9.525e-3), (ROLLERS, 9e-3)):
         machine, result = made(options)
         gamma = d / 0.046
-        omega = TURN * 3000.0
+        omega = RPM * 3000.0
         expected = 0.25 * omega * 0.046 * (1.0 - gamma**2)
         assert [c.mean_velocity for c in result.contacts] == pytest.approx(
             [expected] * len(result.contacts)
         )
-        cage = TURN * result.facts["cage_speed_per_min"]
+        cage = RPM * result.facts["cage_speed_per_min"]
         # seen from the cage, the raceways run by at the same velocity
         assert (omega - cage) * 0.5 * (0.046 - d) == pytest.approx(expected)
         assert cage * 0.5 * (0.046 + d) == pytest.approx(expected)
@@ -234,7 +234,7 @@ def test_spin_of_an_angular_contact():
     _, result = made(BALLS, {"ball_bearing.axial_load": 2000.0, "ball_bearing.contact_angle": 25.0})
     for contact, place in zip(result.contacts, result.places, strict=True):
         angle = math.radians(place["contact_angle_deg"])
-        expected = TURN * 3000.0 * math.sin(angle) if place["ring"] == "inner" else 0.0
+        expected = RPM * 3000.0 * math.sin(angle) if place["ring"] == "inner" else 0.0
         assert contact.spin == pytest.approx(expected)
 
 
@@ -278,7 +278,7 @@ def test_random_gears():
         shares = np.array([p["load_share"] for p in pair.places])
         assert np.all(np.diff(places) > 0.0)
         assert (places[0], places[-1]) == pytest.approx(mesh.ends)
-        speed = TURN * 1450.0
+        speed = RPM * 1450.0
         for place, contact in zip(places, pair.contacts, strict=True):
             one, two = mesh.radii(place)
             assert one + two == pytest.approx(mesh.centre_distance * math.sin(mesh.working_angle))
