@@ -10,7 +10,7 @@ from numpy import asarray
 
 from pyehl.case import Case
 from pyehl.handle import SolverHandle, results_of
-from pyehl.prediction.simulation import transfer
+from pyehl.simulation.initial_condition import transfer
 from pyehl.types import Row, Values
 
 # Sums in another order differ by rounding, which the cycles may amplify

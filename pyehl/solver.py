@@ -26,8 +26,8 @@ from pyehl.given import Option, heights_of, path_of
 from pyehl.handle import SolverHandle, Work, plan_of, results_of
 from pyehl.library import version
 from pyehl.plan_text import plan_text
-from pyehl.predictions import Predictions
 from pyehl.reasons import summary_of
+from pyehl.simulation.predictions import Predictions
 from pyehl.surfaces import (
     GROUPS,
     Record,

@@ -3,17 +3,18 @@
 
 import argparse
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from pyehl import lengths
 from pyehl.api import predict
+from pyehl.case.surfaces import FINISHES
 from pyehl.commands.arguments import add_case_arguments, add_force
 from pyehl.conclusion import conclude
-from pyehl.prediction.friction import TRACKS, error_name
-from pyehl.prediction.predict import other_spectra_report
+from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.result import Prediction, draw
+from pyehl.prediction.summary import error_name
 from pyehl.surfaces import Topography
 
 
@@ -42,7 +43,7 @@ def report(prediction: Prediction) -> str:
         )
         if parts:
             lines.append(f"increase   {parts}")
-    lines += other_spectra_report(prediction.beside)
+    lines += _other_spectra(prediction.beside)
     if prediction.advice:
         lines += prediction.advice.report()
     if f.cavitated_share > 0.0:
@@ -51,6 +52,30 @@ def report(prediction: Prediction) -> str:
             line += f", at most {f.cavitated_friction:.1g} of the friction"
         lines.append(line)
     return "\n".join([*lines, str(conclude(values))])
+
+
+def _other_spectra(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Describe the predictions with other roll-offs."""
+    if not rows:
+        return []
+    typical = (f"{k} {lengths.length(f.rolloff, most='um')}" for k, f in FINISHES.items())
+    lines = [
+        f"spectrum   not determined by Ra; typical roll-offs: {', '.join(typical)};",
+        "           with a roll-off of the spectrum at",
+    ]
+    for row in rows:
+        where = "none" if row["rolloff_wavelength_m"] is None else (
+            lengths.length(row["rolloff_wavelength_m"], most="um")
+        )  # fmt: skip
+        if row["status"] == "predicted":
+            what = f"minimum film {lengths.length(row['h_min_rough_m'])}, "
+            what += f"mu_r/mu_s {row['mu_ratio']:.4g}"
+        else:
+            what = str(row["status"])
+            if (film := row["film_m"]) is not None and film < 0.0:
+                what += f", {lengths.length(-film)} higher than the film sustains"
+        lines.append(f"           {where + ':':8} {what}")
+    return lines
 
 
 def _with_error(values: Mapping[str, Any], name: str, factor: float) -> str:

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The smooth contact of a case: film thickness by closed formulas, and the solution."""
+"""The smooth contact of a case: film by closed formulas, solution, shear stress and heat."""

@@ -25,7 +25,7 @@ from pyehl.machines.gear_duty import has_duty, write_duty
 from pyehl.machines.result import MachineResult, row_of, sigma_of, summary_of, table_of
 from pyehl.plots import machine as pictures
 from pyehl.plots.style import save
-from pyehl.prediction.model import unpredictable
+from pyehl.prediction.predict import unpredictable
 from pyehl.studies.journal import FILES as JOURNAL
 from pyehl.studies.journal import NAME
 from pyehl.studies.plan import TaskList

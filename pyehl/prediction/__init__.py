@@ -49,7 +49,7 @@ lubricant at these pressures has no meaning.
 
 from pyehl.prediction.friction import RoughFriction
 from pyehl.prediction.model import ModelOptions
-from pyehl.prediction.sheared_contact import Response
+from pyehl.prediction.response import Response
 from pyehl.prediction.spectrum import Band
 
 __all__ = ["Band", "ModelOptions", "Response", "RoughFriction"]

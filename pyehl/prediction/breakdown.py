@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the film of rough surfaces ends.
+"""Where the film of rough surfaces ends, and the cut-off with which there is a full film.
 
 With a measured surface some pixel nearly always touches. This is reported with its place, its
-height and its share of the contact, and the film is never clipped.
+height and its share of the contact, and the film is never clipped. A cut-off wavelength or a
+threshold of spikes is suggested with which the film is full.
 """
 
 import math
@@ -11,9 +12,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyehl.prediction.model import Model
+from pyehl import lengths
+from pyehl.prediction.friction import below, mean, run
+from pyehl.prediction.model import KNOWN_RATIO, Model, model_error
 from pyehl.prediction.relative_positions import RelativePositions
 from pyehl.prediction.response import FILM_ENDS
+from pyehl.surfaces.map_steps import cropped, prominence
+from pyehl.surfaces.prepare import Preparation
 from pyehl.surfaces.tile import Topography
 from pyehl.types import Array, Indices
 
@@ -161,3 +166,284 @@ def _in_common_period(
             )
             result = BelowZero(math.nan, float(film[i, j]), at)
     return result
+
+
+Full = Callable[[Topography], bool]
+"""Whether a tile is under a full film."""
+FEW = 0.01
+"""Largest share of a map that counts as a few spikes: more is roughness, not dirt."""
+CUT_OFF_TOLERANCE, THRESHOLD_TOLERANCE = 0.05, 0.1
+"""Of a cut-off and of a threshold of spikes, relative."""
+MIN_THRESHOLD = 5.0
+"""Below it points of a normal distribution would count as spikes: at 5 one in two million."""
+
+
+@dataclass(frozen=True, slots=True)
+class Advice:
+    """Where the film ends, and with which cut-off or threshold it would be full."""
+
+    below: BelowZero
+    groups: tuple[str, ...]  # of the case, one for each surface
+    # x, y of the deepest point on each surface [m]; of a prepared map from the corner of what was
+    # left of it after cropping and turning
+    places: tuple[tuple[float, float], ...]
+    # `shortest_wavelength` [m] of each, then of both, with which the film is full and the error of
+    # the predicted friction known; None: there is none
+    wavelengths: tuple[float | None, ...] = ()
+    # `outliers` of one map with which both hold, and how many points that removes; None: the
+    # surface is no map, or more than a few points would have to go
+    outliers: float | None = None
+    outlier_points: int | None = None
+    # Options that take off what is no roughness, see :mod:`pyehl.surfaces.findings`: they come
+    # first, and no wave or spike was looked for
+    first: tuple[str, ...] = ()
+
+    @property
+    def summary(self) -> dict[str, float | int | None]:
+        """Return what ``summary.json`` holds of it."""
+        two = len(self.places) > 1
+        result: dict[str, float | int | None] = {}
+        for prefix, (x, y) in zip(("", "second_"), self.places, strict=False):
+            result |= {f"{prefix}x_m": x, f"{prefix}y_m": y}
+        result |= {"film_m": self.below.deepest, "share_of_contact": self.below.share}
+        names = ("", "second_", "both_")[: 3 if two else 1]
+        lengths_of = self.wavelengths or (None,) * len(names)
+        for name, length in zip(names, lengths_of, strict=True):
+            result[f"suggested_{name}shortest_wavelength_m"] = length
+        if not two:
+            result["pixels"] = self.below.count
+            result["suggested_outliers"] = self.outliers
+            result["suggested_outliers_points"] = self.outlier_points
+        return result
+
+    def report(self) -> list[str]:
+        """Return the lines that ``pyehl predict`` prints."""
+        places = [f"x = {lengths.length(x, 4)}, y = {lengths.length(y, 4)}" for x, y in self.places]
+        two = len(places) > 1
+        where = f"at {places[0]} of the surface"
+        if two:
+            where = "where " + " meets ".join(
+                f"{place} of {group}" for place, group in zip(places, self.groups, strict=True)
+            )
+        pixels = "" if two else f"{self.below.count} pixels, "
+        higher = f"{-self.below.deepest * 1e9:.3g} nm higher than the film sustains"
+        lines = [
+            f"film ends  {where}: {higher}; {pixels}{100 * self.below.share:.3g} % of the contact "
+            "in the mean over the passage"
+        ]
+        if self.first:
+            return lines + [f"first      {option}: it is no roughness" for option in self.first]
+        if self.outliers is not None:
+            lines.append(
+                f"full film  with {self.groups[0]}.outliers = {self.outliers:.4g}: "
+                f"{self.outlier_points} points count as spikes and are removed"
+            )
+        for name, length in zip((*self.groups, "both"), self.wavelengths, strict=False):
+            if length is not None:
+                key = f"{name}{' ' if name == 'both' else '.'}shortest_wavelength"
+                lines.append(
+                    f"full film  with {key} = {length:.4g}: without waves shorter than "
+                    f"{lengths.length(length, most='um')}"
+                )
+        if self.outliers is None and not any(self.wavelengths):
+            cut = "short waves alone" if two else "spikes or short waves alone"
+            lines.append(f"full film  with no cut of {cut}")
+        return lines
+
+
+def advise(
+    model: Model,
+    below: BelowZero,
+    sustained: Sustained,
+    without_spikes: Callable[[float], Topography] | None = None,
+) -> Advice:
+    """Say where the film of a model, which is not full, ends, and with which cut-off it would be.
+
+    With the film full the error of the predicted friction must be known, too. `without_spikes`
+    takes a threshold of `surface.outliers` and returns the one tile without them.
+    """
+
+    def full(other: Model) -> bool:
+        return of_model(other, other.deformed(), sustained).deepest > 0.0 and known(other)
+
+    tiles = [one.topography for one in model.surfaces]
+    groups = tuple(one.groups[0] for one in model.surfaces)
+    places = tuple(_place(tile, *at) for tile, at in zip(tiles, below.pixels, strict=True))
+    if first := remedies(model):
+        return Advice(below, groups, places, first=tuple(first))
+    wavelengths = []
+    for numbers in choices(len(tiles)):
+
+        def good(shortest: float, numbers: tuple[int, ...] = numbers) -> bool:
+            return full(model.without_shorter(numbers, shortest))
+
+        shortest = min(min(tiles[k].pixel) for k in numbers)
+        longest = max(max(tiles[k].size) for k in numbers)
+        wavelengths.append(suggested_wavelength(2.0 * shortest, longest, good))
+    spikes: tuple[float, int] | None = None
+    made = tiles[0].preparation
+    if made is not None and without_spikes is not None and not made.options.outliers > 0.0:
+        (one,) = model.surfaces
+        spikes = _spikes(
+            made,
+            without_spikes,
+            lambda tile: full(replace(model, surfaces=(replace(one, topography=tile),))),
+        )
+    return Advice(below, groups, places, tuple(wavelengths), *(spikes or (None, None)))
+
+
+def _place(tile: Topography, i: int, j: int) -> tuple[float, float]:
+    """Place of a pixel on the surface [m]; of a prepared map on the map."""
+    made = tile.preparation
+    return made.place(i, j) if made else (i * tile.pixel[0], j * tile.pixel[1])
+
+
+def ways_into_range(model: Model) -> str:
+    """Say which cut-offs would bring the ratio into the range of the model; '' for none."""
+    model = model.merged or model
+    if first := remedies(model):
+        return "; " + ", ".join(f"first {option}" for option in first)
+    waves, radius, ways = model.components(), model.operating.hertz_radius, []
+    shortest = min(min(wave.spectrum.pixel) for wave in waves)
+    longest = 2.0 * math.pi / min(float(w.spectrum.q[w.spectrum.q > 0].min()) for w in waves)
+    for numbers in choices(len(model.surfaces)):
+
+        def ratio(length: float, numbers: tuple[int, ...] = numbers) -> float:
+            limit = 2.0 * math.pi / length
+            return below(model, waves, [limit if k in numbers else math.inf for k in model.order])
+
+        def good(length: float, numbers: tuple[int, ...] = numbers) -> bool:
+            result = run(model.without_shorter(numbers, length), 0, brief=True).friction
+            return result.status == "predicted" and result.mu_ratio <= KNOWN_RATIO
+
+        with np.errstate(over="ignore", invalid="ignore"):
+            high = within_range(ratio, shortest, longest)
+            cut = None if high is None else confirmed(high * radius, longest * radius, good)
+        if cut is not None:
+            of_each = [group for k in numbers for group in model.surfaces[k].groups]
+            keys = " and ".join(f"{group}.shortest_wavelength" for group in of_each)
+            ways.append(f"{keys} = {cut:g}")
+    return f"; {', or '.join(ways)} would leave {KNOWN_RATIO:g} or less" if ways else ""
+
+
+def remedies(model: Model) -> list[str]:
+    """Options that take form and line offsets off maps: cuts of waves would take them as well."""
+    return [
+        f"{finding.remedy.replace('surface.', f'{one.groups[0]}.')} ({finding.kind})"
+        for one in model.surfaces
+        if (made := one.topography.preparation) is not None
+        for finding in made.record.findings
+        if finding.kind in ("form", "line offsets")
+    ]
+
+
+def known(model: Model) -> bool:
+    """Whether the error of the ratio is; that of the paper never is, and is not asked for."""
+    return model.options.as_in_paper or math.isfinite(model_error(mean(model)))
+
+
+def choices(count: int) -> list[tuple[int, ...]]:
+    """Numbers of the surfaces of which short waves are cut: each alone, then both."""
+    return [(0,)] if count == 1 else [(0,), (1,), (0, 1)]
+
+
+def suggested_wavelength(
+    shortest: float, longest: float, full: Callable[[float], bool]
+) -> float | None:
+    """Find the cut-off [m] at which the film is full: shorter waves are taken off.
+
+    Bisection in the logarithm of the wavelength to 5 %, between a `shortest` one, two pixels, and
+    the `longest`, the length of the tile; the film need not be full for every longer cut-off, but
+    it is for the one returned. `full`: whether it is for a cut-off. None if even the longest
+    waves break the film.
+    """
+    low, high = math.log(shortest), math.log(longest)
+    if not full(math.exp(high)):
+        return None
+    while high - low > CUT_OFF_TOLERANCE:
+        middle = 0.5 * (low + high)
+        if full(math.exp(middle)):
+            high = middle
+        else:
+            low = middle
+    rounded = _two_digits(math.exp(high))
+    return rounded if full(rounded) else math.exp(high)
+
+
+def suggested_outliers(
+    away: Array, without_spikes: Callable[[float], Topography], full: Full
+) -> tuple[float, int] | None:
+    """Find the threshold of spikes at which the film is full, if a few points are what breaks it.
+
+    `away` is (nx, ny), see :func:`pyehl.surfaces.map_steps.prominence`; `without_spikes` takes
+    a threshold. Threshold and number of points beyond it; None if more than a few have to go.
+    """
+    allowed = float(np.quantile(away, 1.0 - FEW))
+    low = max(MIN_THRESHOLD, allowed)
+    high = float(away.max())
+    if low >= high or not full(without_spikes(low)):
+        return None
+    below, above = math.log(low), math.log(high)
+    while above - below > THRESHOLD_TOLERANCE:
+        middle = 0.5 * (below + above)
+        if full(without_spikes(math.exp(middle))):
+            below = middle
+        else:
+            above = middle
+    # a threshold that a person would write, on the safe side
+    rounded = float(f"{math.exp(below):.2g}")
+    if rounded > math.exp(below) or rounded < low or not full(without_spikes(rounded)):
+        rounded = math.exp(below)
+    return rounded, int(np.count_nonzero(away > rounded))
+
+
+def _spikes(
+    made: Preparation, without_spikes: Callable[[float], Topography], full: Full
+) -> tuple[float, int] | None:
+    """Threshold with a full film, and the number of points beyond it."""
+    heights = made.scan.heights
+    if any(made.options.crop):
+        nx, ny = heights.shape
+        pixel = (made.scan.length_x / nx, made.scan.length_y / ny)
+        heights = cropped(heights, pixel, made.options.crop)
+    try:
+        away = prominence(heights)
+    except ValueError:
+        # no spread that spikes could exceed
+        return None
+    return suggested_outliers(away, without_spikes, full)
+
+
+def within_range(below: Callable[[float], float], shortest: float, longest: float) -> float | None:
+    """Wavelength [a] without whose shorter waves mu_r/mu_s is in the range of the model.
+
+    Within a tenth, between a `shortest` one and the `longest` of the surface; None: there is none.
+    `below` gives mu_r/mu_s without waves shorter than a length.
+    """
+    low, high = shortest, longest
+    if not below(high) <= KNOWN_RATIO:
+        return None
+    while high > 1.1 * low:
+        middle = math.sqrt(low * high)
+        low, high = (low, middle) if below(middle) <= KNOWN_RATIO else (middle, high)
+    return high
+
+
+def confirmed(start: float, longest: float, good: Callable[[float], bool]) -> float | None:
+    """First wavelength of two digits, from `start` [m] on in steps of a tenth, that is good.
+
+    None if there is none up to `longest` [m].
+    """
+    value = start
+    while value <= longest:
+        rounded = _two_digits(value)
+        if good(rounded):
+            return rounded
+        value = 1.1 * rounded
+    return None
+
+
+def _two_digits(value: float) -> float:
+    """Two digits of a wavelength, rounded up."""
+    scale = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return float(f"{math.ceil(value / scale - 1e-9) * scale:.2g}")

@@ -1,23 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Friction of a model over a passage, its tracks and bands of wavelengths, with its errors."""
+"""Friction of a model over a passage, its tracks and bands of wavelengths, with its errors.
+
+Of a full film, and of a partial one.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from statistics import fmean
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from pyehl.contact.sheared import HertzContact, ShearedContact, thins
 from pyehl.prediction.model import PIXEL_POINTS, Components, Model
 from pyehl.prediction.moving_tile import Component
 from pyehl.prediction.relative_positions import Passage, RelativePositions, TilePositions
+from pyehl.prediction.response import Response
 from pyehl.prediction.rough_contact import RoughContact
-from pyehl.prediction.sheared_contact import HertzContact, Response, ShearedContact, thins
 from pyehl.prediction.spectrum import Band, joining, longer_waves
 from pyehl.surfaces import interpolated, track_offsets
+from pyehl.theory.heat import Heat
 from pyehl.theory.line_contact import AnyContact
 from pyehl.theory.lubricant import Lubricant
 from pyehl.types import Array
@@ -41,6 +45,14 @@ NEWTONIAN_FLOW_NOTE = (
     "nearer to 1, see lubricant.flow"
 )
 STRESS_NOTE = "ratio of friction coefficients at the given slide-to-roll ratio"
+
+
+# Why the friction of a partial film is not known
+BETWEEN = "the film ends between the positions at which contact is looked for"
+NO_FRICTION = (
+    "the bodies touch, and the friction there is not known: lubricant.boundary_friction and "
+    "sliding are needed"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,11 +156,10 @@ def unknown(*names: str) -> dict[str, Any]:
     return dict.fromkeys(names, math.nan)
 
 
-# Errors against the full simulation, measured in docs/evidence/thinning: relative, and of a film
-# beside that of the smooth contact by the rms height of the deformed roughness
-RMS_DEFORMED_ERROR, INCREASE_RMS_ERROR, INCREASE_ERROR = 0.13, 0.05, 0.15
 ROUGH_FILM_ERROR = 0.35
-# Slip above which that of the film is twice as large
+"""Error of a film over roughness, of the rms height of the deformed roughness
+(docs/evidence/thinning)."""
+# Slip above which it is twice as large
 MUCH_SLIP = 0.2
 
 
@@ -171,73 +182,47 @@ def film_levels(
     return (limit - margin, limit, limit + margin) if limit > 0.0 else ()
 
 
-def deformed_surface(
-    friction: RoughFriction,
-    film_minimum: float,
-    film_limit: float,
-    velocity_ratios: Sequence[float],
-    *,
-    known: bool,
-    together_rms: float | None = None,
-) -> dict[str, Any]:
-    """Give the numbers of a summary on the deformed surface.
+@dataclass(frozen=True, slots=True)
+class MixedFilm:
+    """A partial film over the passage of a tile: means, but of the film, and errors; NaN: none."""
 
-    Minimum film of the smooth contact and film limit in m; `known`: whether the errors are, because
-    the model is one that they were measured of and the case in its range; `together_rms`: rms
-    height of the sum of two deformed surfaces that move together [m]. NaN for what is not known.
-    """
-    of_each = [float(np.std(response.deformed)) for response in friction.responses]
-    deformed = of_each[0]
-    of_all = together_rms if together_rms is not None else math.hypot(*of_each)
-    ratio = film_minimum / of_all if of_all > 0.0 else math.nan
-    rms, increase = friction.increase_rms, friction.increase_max
-    share, share_error = friction.below_limit, friction.below_limit_error
-    if friction.status != "predicted":
-        rms = increase = share = share_error = math.nan
-    values = {
-        "h_min_rough_m": (friction.film_min, film_share(*velocity_ratios) * of_all),
-        "rms_deformed_m": (deformed, RMS_DEFORMED_ERROR * deformed),
-        "lambda_ratio_deformed": (ratio, RMS_DEFORMED_ERROR * ratio),
-        "p_rise_rms_Pa": (rms, INCREASE_RMS_ERROR * rms),
-        "p_rise_max_Pa": (increase, INCREASE_ERROR * increase),
-        "film_below_limit_share": (share, share_error),
-    }
-    result: dict[str, Any] = {"film_limit_m": film_limit or None}
-    for name, (value, error) in values.items():
-        reported = known and math.isfinite(value)
-        result |= {name: value, error_name(name): error if reported else math.nan}
-    return result
+    note: str = ""  # why an error or all numbers are missing
+    load_share: float = math.nan  # share of the load where bodies touch [-]
+    load_share_error: float = math.nan
+    area_share: float = math.nan  # their area there over that of the dry contact [-]
+    area_share_error: float = math.nan
+    film_min: float = math.nan  # minimum film [m]
+    film_min_error: float = math.nan
+    # Friction over that of the smooth contact [-], and coefficient of the latter, both with the
+    # boundary film; NaN where bodies touch and its friction is not known
+    friction: float = math.nan
+    friction_error: float = math.nan
+    mu_smooth: float = math.nan
+    shift: Array = field(default_factory=lambda: np.zeros(0))  # of the tile (n,) [m]
+    passage: Array = field(default_factory=lambda: np.zeros(0))  # (n,) friction there
+    lost: bool = False  # whether bodies touch, and no result of that is known
+    heat: Heat | None = None  # effect of the heat on friction where bodies touch
 
+    @property
+    def touches(self) -> bool:
+        """Whether bodies touch."""
+        return self.load_share > 0.0
 
-def error_name(name: str) -> str:
-    """Give the name of the error of a quantity: before the unit."""
-    for unit in ("_m", "_Pa", "_share"):
-        if name.endswith(unit):
-            return f"{name.removesuffix(unit)}_error{unit.replace('_share', '')}"
-    return f"{name}_error"
+    @property
+    def friction_unknown(self) -> bool:
+        """Whether bodies touch and the friction there is not known."""
+        return self.touches and not math.isfinite(self.friction)
 
+    def unknown(self, note: str) -> MixedFilm:
+        """Remove its numbers for a reason: all where bodies may touch."""
+        if self.load_share == 0.0 == self.load_share_error:
+            return self
+        return MixedFilm(note, mu_smooth=self.mu_smooth, lost=self.lost or self.touches)
 
-def deformed_surfaces(rows: Sequence[Mapping[str, Any]]) -> dict[str, float | None]:
-    """Give the same over the summaries of several surfaces.
-
-    Means, the maximum pressure increase, the minimum film; the largest of each error. None
-    where one of the surfaces has none.
-    """
-    names = (
-        "lambda_ratio_deformed",
-        "rms_deformed_m",
-        "p_rise_rms_Pa",
-        "p_rise_max_Pa",
-        "h_min_rough_m",
-        "film_below_limit_share",
-    )
-    over = {"p_rise_max_Pa": max, "h_min_rough_m": min}
-    result: dict[str, float | None] = {}
-    for name in names:
-        for key, of_all in ((name, over.get(name, fmean)), (error_name(name), max)):
-            numbers = [row.get(key) for row in rows]
-            result[key] = None if None in numbers else of_all(float(str(v)) for v in numbers)
-    return result
+    def without_errors(self, note: str) -> MixedFilm:
+        """Remove its errors for a reason."""
+        errors = ("load_share_error", "area_share_error", "film_min_error", "friction_error")
+        return replace(self, note=self.note or note, **unknown(*errors))
 
 
 class Outcome(NamedTuple):
@@ -246,6 +231,54 @@ class Outcome(NamedTuple):
     friction: RoughFriction
     tracks: tuple[float, float] = (math.nan, math.nan)
     bands: Sequence[Band] = ()
+
+
+def with_contact(result: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]:
+    """Friction where bodies touch, from that of a full film, and known parts of the partial film.
+
+    A prediction without contact, or whose contact is not known, stays as it is.
+    """
+    friction = result.friction
+    if friction.status == "film breakdown" and not mixed.touches:
+        # contact is not known where the film ends, and none was found there
+        mixed = replace(mixed if mixed.note else MixedFilm(BETWEEN), mu_smooth=mixed.mu_smooth)
+        mixed = replace(mixed, lost=True)
+    if mixed.lost:
+        return Outcome(_lost(friction, mixed), bands=result.bands), mixed
+    if not mixed.touches:
+        return result, mixed
+    fine = interpolated(mixed.passage, 8)
+    known = math.isfinite(mixed.friction)
+    if friction.status != "predicted":
+        # a full film that breaks down has no pressures
+        numbers = ("increase_rms", "increase_max", "pressure_max", "below_limit")
+        friction = replace(friction, **unknown(*numbers, "below_limit_error"))
+    friction = replace(
+        friction,
+        status="predicted",
+        message="partial film: the bodies touch at the boundary film",
+        mu_ratio=mixed.friction,
+        mu_ratio_min=float(fine.min()) if known else math.nan,
+        mu_ratio_max=float(fine.max()) if known else math.nan,
+        position_error=math.nan,
+        shifts=(mixed.shift,),
+        passage=mixed.passage,
+        mu_smooth=mixed.mu_smooth,
+        film_min=mixed.film_min,
+        cavitated_friction=math.nan,
+    )
+    return Outcome(friction, bands=result.bands), mixed
+
+
+def _lost(friction: RoughFriction, mixed: MixedFilm) -> RoughFriction:
+    """Remove the friction of a full film where bodies touch to an unknown extent."""
+    message = f"the bodies touch at the boundary film, and nothing of that is known: {mixed.note}"
+    if friction.status != "predicted":
+        message = f"{friction.message}; {message}"
+    status = "film breakdown" if friction.status == "predicted" else friction.status
+    smooth = mixed.mu_smooth if math.isfinite(mixed.mu_smooth) else friction.mu_smooth
+    none = broken(friction, math.nan)
+    return replace(none, status=status, message=message, mu_smooth=smooth)
 
 
 def run(

@@ -1,26 +1,278 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Partial film: means over the passage of a tile, their errors, and reasons of missing values.
+"""Contact at a boundary film, where the film of the response would be thinner than that film.
 
-Each position is solved by :mod:`pyehl.prediction.mixed_contact`. Compared with the full simulation
-in docs/evidence/partial.
+The film of the response, at one position of the tile after another, must not be thinner than the
+boundary film (``lubricant.boundary_film``; under pressure it is compressed as the lubricant is). A
+pressure p_c of contact lifts it. It bends the surfaces as if the roughness r were r - p_c/K there,
+K being the stiffness of the half-space, and the fluid flattens that as it does any roughness. So
+the loss of film falls by T p_c/K and the pressure grows by T p_c, T by the response for waves that
+move with the lubricant as the films of touching nodes do. For waves as long as the contact T is
+near zero: solid contact then takes load from the fluid, and the mean film remains that of the
+inlet.
+
+The mean film is thicker where contact would otherwise sustain more than the load, and by the mass
+defect of the boundary film. A column of lubricant that a peak has passed has at least the thickness
+of the boundary film. So its mass defect is the largest deficit on the way through the contact, on
+which peaks that slip pass it one after the other, and all films are thicker by the mean s of that:
+
+    s = < max(0, h_b - h_min - s) >,   h_min the minimum film of the column during its passage.
+
+Without roughness this is not the solution of the smooth contact: the boundary film makes the film
+of its inlet thinner there. The change of all films with which this contact has the load share of
+that solution is the error of the films, and friction is relative to the smooth contact with films
+changed so. Compared with the full simulation in docs/evidence/partial.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
+import scipy
 
+from pyehl.contact.heat import HeatOf, mean_heat
 from pyehl.contact.smooth import SmoothContact
-from pyehl.prediction.friction import Outcome, RoughFriction, broken, unknown
-from pyehl.prediction.mixed_contact import HOLD, Level, MixedContact
+from pyehl.prediction.friction import MixedFilm
 from pyehl.prediction.model import FILM_ELLIPTICITY, Components, Model
+from pyehl.prediction.moving_tile import slipped
+from pyehl.prediction.response import film_left, loss_at
+from pyehl.prediction.rough_contact import RoughContact, missing
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.surfaces import interpolated
+from pyehl.surfaces import Topography
+from pyehl.theory.elastic_contact import Compliance, SolidContact, contact_pressures
 from pyehl.theory.heat import Heat
-from pyehl.types import Array, Settings
+from pyehl.theory.transport import stiffness
+from pyehl.types import Array, Indices, Mask, Settings
+
+HOLD = 0.01
+"""Bodies touch where the film exceeds the boundary film by less than this share, as in the solver
+(``fortran/reynolds/boundary_film.f90``)."""
+OPEN = 1.0
+"""Film outside of the contact [a^2/R]: any value, since there is no heat without pressure."""
+MIN_LEFT = 0.02
+"""Minimum amplitude ratio of waves, some of which the fluid flattens nearly completely: half and
+twice of it change no digit of the contact in docs/howto/mixed.md."""
+DEFECT_TOLERANCE = 1e-4
+"""Error of the film by the mass defect, over the boundary film: far below HOLD."""
+SHARE, FARTHEST = 1e-3, 1.0
+"""Error of the load share of a smooth contact, and the largest film over its minimum film, in the
+search for the film that has it."""
+BOX = 1.25
+"""Length of the periodic box of pressures over that of the contact: 1.1 and 2 change the load share
+in docs/howto/mixed.md by 2 and 4 % of itself, a tenth of its error."""
+
+
+@dataclass(slots=True)
+class Level:
+    """Results of the positions with all films thicker by a length [a^2/R]."""
+
+    thicker: float
+    minimum: float = math.inf  # film [a^2/R]
+    # In each position: shares of the load and of the area in solid contact, sum of the shear stress
+    load: list[float] = field(default_factory=list)
+    area: list[float] = field(default_factory=list)
+    stress: list[float] = field(default_factory=list)
+
+
+class MixedContact:
+    """A contact with a boundary film [m], with `points` points per shorter semi-axis.
+
+    Under one rough surface with heights on a `grid`; `friction` of the boundary film [-], 0: not
+    known.
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        waves: Components,
+        grid: Topography,
+        points: float,
+        boundary: float,
+        friction: float,
+    ) -> None:
+        self.model, o = model, model.operating
+        (wave,) = waves
+        self.velocity_ratio = wave.velocity_ratio
+        self.tile = model.pixel_tile(wave, points)
+        self.stride = self.tile.stride
+        self.rough = RoughContact.on_pixels(model.contact, o, model.lubricant, self.tile)
+        self.boundary = boundary / o.film_scale
+        # of the stress of the boundary film over its pressure, as `ShearedContact.stress` has
+        # stresses
+        unit = 1.0 if self.rough.thins else model.lubricant.viscosity * o.sliding_speed
+        known = friction > 0.0 and o.sliding_speed > 0.0
+        self.rubbing = friction * o.hertz_pressure / unit if known else math.nan
+        # films that were scaled to the extrapolated central film are off at the sides
+        self.film = self.rough.film + missing(model.contact, self.rough.film, self.rough.lowest)
+        self.slip_path = self._slip_path()
+        self.load = float(self.rough.pressure.sum(where=self.rough.inside))
+        self.whole_load = o.load / (o.hertz_pressure * self.rough.area)
+        self._bend(self._around(grid))
+        # pressure, film and where bodies touch at each position, of the film itself
+        self.solutions: dict[int, tuple[Array, Array, Mask]] = {}
+
+    def _slip_path(self) -> Indices:
+        """Points by which peaks have slipped past a column since the inlet (m, n)."""
+        rough = self.rough
+        way = slipped(rough.x[:, np.newaxis], rough.across, self.velocity_ratio, bent=True)
+        return np.rint(way / (self.stride * self.tile.pixel[0])).astype(int)
+
+    def _mass_defect(self, deficit: Array) -> float:
+        """Film by the mass defect of the boundary film [a^2/R], from the deficit (m, n)."""
+        most = deficit.copy()
+        direction = 1 if self.velocity_ratio > 1.0 else -1
+        for step in range(1, int(np.abs(self.slip_path).max()) + 1):
+            # peaks that are faster than the lubricant are ahead of where they met it
+            met = np.full_like(deficit, -np.inf)
+            ahead, here = slice(step, None), slice(None, -step)
+            met[here if direction > 0 else ahead] = deficit[ahead if direction > 0 else here]
+            passed = np.abs(self.slip_path) >= step
+            most[passed] = np.maximum(most, met)[passed]
+        of_all = most[self.rough.inside]
+        low, high = 0.0, max(0.0, float(of_all.max()))
+        while high - low > DEFECT_TOLERANCE * self.boundary:
+            middle = 0.5 * (low + high)
+            enough = float(np.maximum(of_all - middle, 0.0).mean()) <= middle
+            low, high = (low, middle) if enough else (middle, high)
+        return high
+
+    def _around(self, grid: Topography) -> Spectrum:
+        """Roughness on a box around the contact."""
+        rough, tile, o = self.rough, self.tile, self.model.operating
+        box = [scipy.fft.next_fast_len(math.ceil(BOX * n), real=True) for n in rough.film.shape]
+        if rough.strip:
+            # the strip repeats itself
+            box[1] = rough.film.shape[1]
+        firsts = tile.rows[0], tile.columns[0]
+        rows, columns = (
+            (first + self.stride * np.arange(n)) % size
+            for first, n, size in zip(firsts, box, grid.shape, strict=True)
+        )
+        lengths = [n * self.stride * p for n, p in zip(box, tile.pixel, strict=True)]
+        heights = grid.heights[np.ix_(rows, columns)] / o.film_scale
+        return Spectrum.of(heights, lengths[0], lengths[1])
+
+    def _bend(self, around: Spectrum) -> None:
+        """Find the response of film and pressure to contact pressures."""
+        slow = replace(self.model.surfaces[0], velocity_ratio=1.0)
+        (transfer,) = replace(self.model, surfaces=(slow,)).transfers([around])
+        left = np.maximum(np.abs(transfer.at_centre(around, 1.0)), MIN_LEFT)
+        left[0, 0] = 0.0
+        k = transfer.stiffening * stiffness(around.q)
+        k[0, 0] = math.inf
+        self.lifting = Compliance(left / k, around.shape)
+        self.raising = Compliance(left, around.shape)
+
+    def _floor(self, pressure: Array) -> Array:
+        """Thickness of the boundary film under pressures [p_h]."""
+        p = np.maximum(pressure, 0.0) * self.model.operating.hertz_pressure
+        return self.boundary / self.model.lubricant.density_ratio(p)
+
+    def add(self, shift: int, levels: list[Level]) -> bool:
+        """Add a position to levels; False: it is not solved."""
+        rough, held = self.rough, None
+        change = rough.change((shift, 0)).astype(float)
+        for level in levels:
+            held, (pressure, film, touching) = self._state(change, level.thicker, held)
+            if held is None:
+                return False
+            self.solutions.setdefault(shift, (pressure, film, touching))
+            level.load.append(self._share(pressure, touching))
+            level.area.append(np.count_nonzero(touching) / rough.points)
+            level.stress.append(self._stress(pressure, film, touching))
+            level.minimum = min(
+                level.minimum, float(film.min(where=rough.inside, initial=math.inf))
+            )
+        return True
+
+    def _state(
+        self, change: Array, thicker: float, held: SolidContact | None
+    ) -> tuple[SolidContact | None, tuple[Array, Array, Mask]]:
+        """Pressure, film and where bodies touch (m, n), by loss of film and increase of pressure.
+
+        `change` (m, n, 2) where films are thicker by a length; also the contact pressure;
+        None: it is not solved. It starts from that of a similar state.
+        """
+        linear = self.rough.pressure + change[..., 1]
+        floor = self._floor(linear)
+        loss = change[..., 0] - thicker
+        loss -= self._mass_defect(floor - self.film * film_left(loss / self.film))
+        sustained = self.film * loss_at(floor / self.film)
+        gap = np.where(self.rough.inside, sustained - loss, np.inf)
+        held = contact_pressures(gap, self.lifting, self.boundary, self.load, held)
+        lift, more = (0.0, 0.0) if held is None else (held.lift, self.raising(held.pressure))
+        film = np.maximum(self.film * film_left((loss - lift) / self.film), floor)
+        pressure = np.maximum(linear + more, 0.0)
+        return held, (pressure, film, self._touching(pressure, film, floor))
+
+    def _share(self, pressure: Array, touching: Mask) -> float:
+        """Share of the load at the boundary film."""
+        whole = float(pressure.sum(where=self.rough.inside))
+        return float(pressure.sum(where=touching)) / whole
+
+    def film_off(self, share: float) -> float:
+        """Film [a^2/R] by which all were thicker in a smooth contact with a load share.
+
+        To SHARE; NaN where none up to FARTHEST does, or the share is not known.
+        """
+        farthest = FARTHEST * self.rough.lowest
+        low, high, off = -farthest, farthest, 0.0
+        while math.isfinite(share) and (result := self._of_smooth(off)) is not None:
+            left = self._share(result[0], result[2]) - share
+            if abs(left) <= SHARE:
+                return off
+            if high - low < DEFECT_TOLERANCE * self.boundary:
+                return off if -farthest < low < high < farthest else math.nan
+            low, high = (off, high) if left > 0.0 else (low, off)
+            off = 0.5 * (low + high)
+        return math.nan
+
+    def _of_smooth(self, thicker: float) -> tuple[Array, Array, Mask] | None:
+        """Pressure, film and where bodies touch without roughness; None: not solved."""
+        held, state = self._state(np.zeros((*self.film.shape, 2)), thicker, None)
+        return None if held is None else state
+
+    def _touching(self, pressure: Array, film: Array, floor: Array) -> Mask:
+        return self.rough.inside & (film <= (1.0 + HOLD) * floor) & (pressure > 0.0)
+
+    def _stress(self, pressure: Array, film: Array, touching: Mask) -> float:
+        """Sum of the shear stress, of the boundary film by its load share; NaN: not known."""
+        stress, inside = self.rough.stress(pressure, film), self.rough.inside
+        flowing = float(stress.sum(where=inside & ~touching))
+        if not touching.any():
+            return flowing
+        return flowing + self.rubbing * self.whole_load * self._share(pressure, touching)
+
+    def heat(self, steps: Indices, settings: Settings) -> Heat | None:
+        """Heat of sliding at some positions: of friction a mean, of the rises the maximum.
+
+        None where bodies do not touch, or the friction of the boundary film is not known.
+        """
+        touches = any(touching.any() for _, _, touching in self.solutions.values())
+        if not (touches and math.isfinite(self.rubbing)):
+            return None
+        heat_of = HeatOf(settings, self.model.lubricant, self.rough.x, self.rough.y)
+        result = [self.solutions[int(step)] for step in steps]
+        inside = self.rough.inside
+        # there is no heat outside of the points of friction
+        return mean_heat(
+            [heat_of(np.where(inside, p, 0.0), np.where(inside, h, OPEN), t) for p, h, t in result],
+            [self._stress(*state) for state in result],
+        )
+
+    def smooth_friction(self, off: float) -> float:
+        """Sum of the shear stress of the smooth contact, which touches where films `film_off` do.
+
+        NaN: where its own film is not above the boundary film.
+        """
+        pressure = self.rough.pressure
+        film = np.maximum(self.film, self._floor(pressure))
+        touching = self._touching(pressure, film, self._floor(pressure))
+        if math.isfinite(off) and (state := self._of_smooth(off)) is not None:
+            pressure, _, touching = state
+        return self._stress(pressure, film, touching)
+
 
 POSITIONS = 16
 """Positions of the tile over its passage: 32 and 64 change the load share in docs/howto/mixed.md by
@@ -42,54 +294,6 @@ ELASTIC = "the prediction is of elastic solids: contact.hardness is left out"
 UNRESOLVED = "waves are too short for the points of the prediction"
 UNSOLVED = "the contact of the prediction is not solved"
 NO_SMOOTH = "no film has the load share of the smooth contact, by which the error is known"
-BETWEEN = "the film ends between the positions at which contact is looked for"
-NO_FRICTION = (
-    "the bodies touch, and the friction there is not known: lubricant.boundary_friction and "
-    "sliding are needed"
-)
-
-
-@dataclass(frozen=True, slots=True)
-class MixedFilm:
-    """A partial film over the passage of a tile: means, but of the film, and errors; NaN: none."""
-
-    note: str = ""  # why an error or all numbers are missing
-    load_share: float = math.nan  # share of the load where bodies touch [-]
-    load_share_error: float = math.nan
-    area_share: float = math.nan  # their area there over that of the dry contact [-]
-    area_share_error: float = math.nan
-    film_min: float = math.nan  # minimum film [m]
-    film_min_error: float = math.nan
-    # Friction over that of the smooth contact [-], and coefficient of the latter, both with the
-    # boundary film; NaN where bodies touch and its friction is not known
-    friction: float = math.nan
-    friction_error: float = math.nan
-    mu_smooth: float = math.nan
-    shift: Array = field(default_factory=lambda: np.zeros(0))  # of the tile (n,) [m]
-    passage: Array = field(default_factory=lambda: np.zeros(0))  # (n,) friction there
-    lost: bool = False  # whether bodies touch, and no result of that is known
-    heat: Heat | None = None  # effect of the heat on friction where bodies touch
-
-    @property
-    def touches(self) -> bool:
-        """Whether bodies touch."""
-        return self.load_share > 0.0
-
-    @property
-    def friction_unknown(self) -> bool:
-        """Whether bodies touch and the friction there is not known."""
-        return self.touches and not math.isfinite(self.friction)
-
-    def unknown(self, note: str) -> MixedFilm:
-        """Remove its numbers for a reason: all where bodies may touch."""
-        if self.load_share == 0.0 == self.load_share_error:
-            return self
-        return MixedFilm(note, mu_smooth=self.mu_smooth, lost=self.lost or self.touches)
-
-    def without_errors(self, note: str) -> MixedFilm:
-        """Remove its errors for a reason."""
-        errors = ("load_share_error", "area_share_error", "film_min_error", "friction_error")
-        return replace(self, note=self.note or note, **unknown(*errors))
 
 
 def mixed_film(
@@ -184,70 +388,3 @@ def _shortest(spectrum: Spectrum, power: Array) -> float:
     order = np.argsort(spectrum.q, axis=None)[::-1]
     beyond = np.cumsum(power.ravel()[order]) > SHORTER * power.sum()
     return 2.0 * math.pi / float(spectrum.q.ravel()[order[int(np.argmax(beyond))]])
-
-
-def with_contact(result: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]:
-    """Friction where bodies touch, from that of a full film, and known parts of the partial film.
-
-    A prediction without contact, or whose contact is not known, stays as it is.
-    """
-    friction = result.friction
-    if friction.status == "film breakdown" and not mixed.touches:
-        # contact is not known where the film ends, and none was found there
-        mixed = replace(mixed if mixed.note else MixedFilm(BETWEEN), mu_smooth=mixed.mu_smooth)
-        mixed = replace(mixed, lost=True)
-    if mixed.lost:
-        return Outcome(_lost(friction, mixed), bands=result.bands), mixed
-    if not mixed.touches:
-        return result, mixed
-    fine = interpolated(mixed.passage, 8)
-    known = math.isfinite(mixed.friction)
-    if friction.status != "predicted":
-        # a full film that breaks down has no pressures
-        numbers = ("increase_rms", "increase_max", "pressure_max", "below_limit")
-        friction = replace(friction, **unknown(*numbers, "below_limit_error"))
-    friction = replace(
-        friction,
-        status="predicted",
-        message="partial film: the bodies touch at the boundary film",
-        mu_ratio=mixed.friction,
-        mu_ratio_min=float(fine.min()) if known else math.nan,
-        mu_ratio_max=float(fine.max()) if known else math.nan,
-        position_error=math.nan,
-        shifts=(mixed.shift,),
-        passage=mixed.passage,
-        mu_smooth=mixed.mu_smooth,
-        film_min=mixed.film_min,
-        cavitated_friction=math.nan,
-    )
-    return Outcome(friction, bands=result.bands), mixed
-
-
-def _lost(friction: RoughFriction, mixed: MixedFilm) -> RoughFriction:
-    """Remove the friction of a full film where bodies touch to an unknown extent."""
-    message = f"the bodies touch at the boundary film, and nothing of that is known: {mixed.note}"
-    if friction.status != "predicted":
-        message = f"{friction.message}; {message}"
-    status = "film breakdown" if friction.status == "predicted" else friction.status
-    smooth = mixed.mu_smooth if math.isfinite(mixed.mu_smooth) else friction.mu_smooth
-    none = broken(friction, math.nan)
-    return replace(none, status=status, message=message, mu_smooth=smooth)
-
-
-def contact_numbers(mixed: MixedFilm | None, boundary: float, *, known: bool) -> dict[str, Any]:
-    """Give the numbers of a summary on contact with a boundary film [a^2/R]; nothing without one.
-
-    `known`: whether the case lies in the range that the response was measured in.
-    """
-    if mixed is None:
-        return {}
-    film = {"h_min_rough_error_m": mixed.film_min_error if known else math.nan}
-    return {
-        **(film if mixed.touches else {}),
-        "boundary_film": boundary,
-        "contact_load_share": mixed.load_share,
-        "contact_load_share_error": mixed.load_share_error,
-        "contact_load_share_error_note": mixed.note,
-        "contact_area_share": mixed.area_share,
-        "contact_area_share_error": mixed.area_share_error,
-    }

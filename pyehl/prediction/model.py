@@ -20,15 +20,15 @@ sum over all waves, eq. 12              :class:`moving_tile.WaveTiles`, of one s
 edge of the contact                     :meth:`moving_tile.Edge.of`
 second order: gamma (P^2 - s^2), f(t/H) :meth:`response.SecondOrder.of`,
                                         :func:`response.film_left`
-tau(p_s + delta p, h_s - rr_d), eq. 13  :meth:`sheared_contact.ShearedContact.stress`
+tau(p_s + delta p, h_s - rr_d), eq. 13  :meth:`pyehl.contact.sheared.ShearedContact.stress`
 friction: integral of tau, eq. 14       :meth:`rough_contact.RoughContact.friction`; model of the
-                                        paper: :meth:`sheared_contact.HertzContact.friction`
+                                        paper: :meth:`pyehl.contact.sheared.HertzContact.friction`
 mean over the passage                   :mod:`relative_positions`
 mu_r/mu_s, tracks, bands                :func:`friction.run`
 p_s, h_s: the smooth contact            :func:`pyehl.contact.smooth.solve_contact`
 contact at a boundary film              :func:`mixed_lubrication.partial_film`
 heat of sliding                         :func:`pyehl.contact.smooth.heat_of`
-where the film ends, and a cut-off      :func:`breakdown.below_zero`, :func:`advice.advise`
+where the film ends, and a cut-off      :func:`breakdown.below_zero`, :func:`breakdown.advise`
 with which it would not
 errors                                  :func:`model.model_error`
 ======================================= ==========================================================
@@ -47,53 +47,23 @@ from functools import cached_property
 
 import numpy as np
 
+from pyehl.contact.sheared import HertzContact
 from pyehl.contact.smooth import SmoothContact, circle_of, zone_of
 from pyehl.errors import InputError
 from pyehl.prediction.moving_tile import Component, Edge, PixelTile, long_waves
 from pyehl.prediction.relative_positions import RelativePositions, TilePositions
-from pyehl.prediction.response import Transfer
+from pyehl.prediction.response import Response, Transfer
 from pyehl.prediction.rough_contact import RoughContact
-from pyehl.prediction.sheared_contact import HertzContact, Response
 from pyehl.prediction.spectrum import Spectrum, working_grid
-from pyehl.surfaces import FEATURES, Topography, filtered, rough_groups
+from pyehl.surfaces import Topography, filtered
 from pyehl.surfaces.pair import merged
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.ellipse import Ellipse
-from pyehl.theory.line_contact import AnyContact, contact_of
+from pyehl.theory.line_contact import AnyContact
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.response import fitted_range
 from pyehl.theory.strip_edge import StripEdge
 from pyehl.types import Array, Settings
-
-
-def unpredictable(settings: Settings) -> str:
-    """Say why nothing is predicted of a resolved case; '' where something is."""
-    if turned(settings):
-        return turned(settings)
-    groups = rough_groups(settings)
-    if not groups:
-        return "surface.kind = 'smooth': a prediction needs a rough surface"
-    for group in groups:
-        kind = str(settings[group]["kind"])
-        if kind in FEATURES:
-            return (
-                f"{group}.kind = {kind!r}: a single feature passes once. A prediction is the mean "
-                "friction of roughness that fills the contact\nexpected: 'pyehl run', or "
-                f"{group}.kind = 'harmonic', 'map' or 'fractal'"
-            )
-    return ""
-
-
-def turned(settings: Settings) -> str:
-    """Say why an ellipse has no response; '' where an axis lies along the motion."""
-    angle = float(settings["contact"].get("angle", 0.0))
-    if angle == 0.0 or contact_of(settings).radius_ratio == 1.0:
-        return ""
-    return (
-        f"contact.angle = {angle:g}: the response of an elliptical contact is known where an axis "
-        "lies along the motion. What is missing: an inlet that is oblique on the centre line\n"
-        "expected: contact.angle = 0 (at 90 degrees with the radii exchanged), or 'pyehl run'"
-    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -223,13 +193,6 @@ def outside_range(
 
 
 Components = list[Component]
-
-
-def _distinct(wavenumbers: Array, least: float) -> Array:
-    """Return wavenumbers once each, those that differ by less than a least one as one."""
-    result = np.unique(wavenumbers)
-    return result[np.diff(result, prepend=-math.inf) > least]
-
 
 PIXEL_POINTS = 60
 """Points per shorter semi-axis at which the shear stress under one surface is taken: the tile is
@@ -367,8 +330,11 @@ class Model:
         if not self.operating.ellipse.is_line:
             return self.operating.ellipse
         across = [np.abs(s.qy[long_waves(s, StripEdge.largest)[1]]) for s in spectra]
+        wavenumbers = np.unique(np.concatenate(across))
         width = max(s.pixel[1] * s.shape[1] for s in spectra)
-        return StripEdge(_distinct(np.concatenate(across), 1.0 / width), width)
+        # wavenumbers of two tiles that are nearly equal count once
+        distinct = np.diff(wavenumbers, prepend=-math.inf) > 1.0 / width
+        return StripEdge(wavenumbers[distinct], width)
 
     def grids(self) -> list[Topography]:
         """Put the tiles, by number, on grids that resolve the contact, with room for the positions.

@@ -18,7 +18,6 @@ import numpy as np
 
 from pyehl import blas, lengths, surfaces
 from pyehl.case.duty import refuse_duty
-from pyehl.case.surfaces import FINISHES
 from pyehl.contact.smooth import (
     SmoothContact,
     heat_of,
@@ -28,15 +27,30 @@ from pyehl.contact.smooth import (
     with_boundary_film,
 )
 from pyehl.errors import InputError
-from pyehl.prediction.advice import advise, ways_into_range
-from pyehl.prediction.breakdown import BelowZero, Sustained, below_zero, of_model, sustained_by
-from pyehl.prediction.friction import BEYOND, TRACKS, Outcome, RoughFriction, broken, run
-from pyehl.prediction.mixed_lubrication import mixed_film, with_contact
-from pyehl.prediction.model import PIXEL_POINTS, Model, ModelOptions, RoughSurface, unpredictable
+from pyehl.prediction.breakdown import (
+    BelowZero,
+    Sustained,
+    advise,
+    below_zero,
+    of_model,
+    sustained_by,
+    ways_into_range,
+)
+from pyehl.prediction.friction import (
+    BEYOND,
+    TRACKS,
+    Outcome,
+    RoughFriction,
+    broken,
+    run,
+    with_contact,
+)
+from pyehl.prediction.mixed_lubrication import mixed_film
+from pyehl.prediction.model import PIXEL_POINTS, Model, ModelOptions, RoughSurface
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.spectrum import WORKING_PIXELS
 from pyehl.prediction.summary import Together
-from pyehl.surfaces import Topography
+from pyehl.surfaces import FEATURES, Topography, rough_groups
 from pyehl.theory.line_contact import AnyContact, contact_of, formula_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.types import Settings
@@ -84,30 +98,6 @@ def other_spectra(
             }
         )
     return results
-
-
-def other_spectra_report(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Return the lines that ``pyehl predict`` prints."""
-    if not rows:
-        return []
-    typical = (f"{k} {lengths.length(f.rolloff, most='um')}" for k, f in FINISHES.items())
-    lines = [
-        f"spectrum   not determined by Ra; typical roll-offs: {', '.join(typical)};",
-        "           with a roll-off of the spectrum at",
-    ]
-    for row in rows:
-        where = "none" if row["rolloff_wavelength_m"] is None else (
-            lengths.length(row["rolloff_wavelength_m"], most="um")
-        )  # fmt: skip
-        if row["status"] == "predicted":
-            what = f"minimum film {lengths.length(row['h_min_rough_m'])}, "
-            what += f"mu_r/mu_s {row['mu_ratio']:.4g}"
-        else:
-            what = str(row["status"])
-            if (film := row["film_m"]) is not None and film < 0.0:
-                what += f", {lengths.length(-film)} higher than the film sustains"
-        lines.append(f"           {where + ':':8} {what}")
-    return lines
 
 
 LOG = logging.getLogger(__name__)
@@ -197,6 +187,36 @@ def _time(seconds: float) -> str:
         if seconds >= 2.0 * size:
             return f"{float(f'{seconds / size:.1g}'):g} {unit}"
     return f"{float(f'{seconds:.1g}'):g} s"
+
+
+def unpredictable(settings: Settings) -> str:
+    """Say why nothing is predicted of a resolved case; '' where something is."""
+    if turned(settings):
+        return turned(settings)
+    groups = rough_groups(settings)
+    if not groups:
+        return "surface.kind = 'smooth': a prediction needs a rough surface"
+    for group in groups:
+        kind = str(settings[group]["kind"])
+        if kind in FEATURES:
+            return (
+                f"{group}.kind = {kind!r}: a single feature passes once. A prediction is the mean "
+                "friction of roughness that fills the contact\nexpected: 'pyehl run', or "
+                f"{group}.kind = 'harmonic', 'map' or 'fractal'"
+            )
+    return ""
+
+
+def turned(settings: Settings) -> str:
+    """Say why an ellipse has no response; '' where an axis lies along the motion."""
+    angle = float(settings["contact"].get("angle", 0.0))
+    if angle == 0.0 or contact_of(settings).radius_ratio == 1.0:
+        return ""
+    return (
+        f"contact.angle = {angle:g}: the response of an elliptical contact is known where an axis "
+        "lies along the motion. What is missing: an inlet that is oblique on the centre line\n"
+        "expected: contact.angle = 0 (at 90 degrees with the radii exchanged), or 'pyehl run'"
+    )
 
 
 MAX_TRACKS = 10_000

@@ -419,3 +419,11 @@ class Transfer:
             return np.zeros_like(self.driven[MIDDLE])
         slip = np.exp(1j * spectrum.qx * (velocity_ratio - 1.0))[:, np.newaxis]
         return np.asarray(self.free[MIDDLE] * slip)
+
+
+@dataclass(frozen=True, slots=True)
+class Response:
+    """Response of a loaded contact to a rough tile, with the properties of its centre."""
+
+    pressure: Array  # delta p (nx, ny) [Pa], mean zero
+    deformed: Array  # deformed roughness rr_d (nx, ny) [m], mean zero, peaks thin the film

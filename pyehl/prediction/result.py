@@ -16,17 +16,18 @@ import numpy as np
 
 from pyehl import display, namelist
 from pyehl.arrays import write_csv
+from pyehl.contact.sheared import thins
 from pyehl.contact.smooth import SmoothContact
 from pyehl.destination import Destination, write_json
-from pyehl.prediction.advice import Advice
-from pyehl.prediction.breakdown import BelowZero
+from pyehl.prediction.breakdown import Advice, BelowZero
 from pyehl.prediction.friction import (
+    NO_FRICTION,
     TRACKS,
+    MixedFilm,
     Outcome,
     RoughFriction,
     meaning,
 )
-from pyehl.prediction.mixed_lubrication import NO_FRICTION, MixedFilm
 from pyehl.prediction.model import (
     FILM_ELLIPTICITY,
     Model,
@@ -35,7 +36,6 @@ from pyehl.prediction.model import (
     model_error,
     why_no_error,
 )
-from pyehl.prediction.sheared_contact import thins
 from pyehl.prediction.spectrum import BAND_COLUMNS, Band
 from pyehl.prediction.summary import (
     SECOND,

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import extension
+from pyehl.contact.sheared import INNER, NEAR, ShearedContact
 from pyehl.contact.smooth import SmoothContact
 from pyehl.prediction.moving_tile import (
     REACH,
@@ -33,7 +34,6 @@ from pyehl.prediction.moving_tile import (
     station_weights,
 )
 from pyehl.prediction.response import FILM_ENDS, STATIONS, film_left
-from pyehl.prediction.sheared_contact import INNER, NEAR, ShearedContact
 from pyehl.theory.disc import EDGE_ANGLES
 from pyehl.theory.line_contact import AnyContact
 from pyehl.theory.lubricant import Lubricant

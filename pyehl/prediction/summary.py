@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from statistics import fmean
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,11 +14,8 @@ import numpy as np
 from pyehl import schema
 from pyehl.assessment import assess
 from pyehl.destination import finite
-from pyehl.prediction.friction import (
-    deformed_surface,
-)
-from pyehl.prediction.mixed_lubrication import NO_FRICTION, contact_numbers
-from pyehl.prediction.sheared_contact import Response
+from pyehl.prediction.friction import NO_FRICTION, MixedFilm, RoughFriction, film_share
+from pyehl.prediction.response import Response
 from pyehl.prediction.spectrum import Spectrum, cutoff_error, records
 from pyehl.reasons import alpha_note
 from pyehl.surfaces import Topography
@@ -29,6 +27,8 @@ if TYPE_CHECKING:
     from pyehl.prediction.result import Prediction
 
 
+RMS_DEFORMED_ERROR, INCREASE_RMS_ERROR, INCREASE_ERROR = 0.13, 0.05, 0.15
+"""Errors against the full simulation, relative (docs/evidence/thinning)."""
 SECOND = "second_"
 """Prefix of the names of the second surface."""
 
@@ -106,6 +106,94 @@ def _slope(tile: Topography) -> float:
     """Rms slope [-]."""
     waves = Spectrum.of(tile.heights, *tile.size)
     return math.sqrt(float((np.square(waves.q) * waves.power).sum()))
+
+
+def deformed_surface(
+    friction: RoughFriction,
+    film_minimum: float,
+    film_limit: float,
+    velocity_ratios: Sequence[float],
+    *,
+    known: bool,
+    together_rms: float | None = None,
+) -> dict[str, Any]:
+    """Give the numbers of a summary on the deformed surface.
+
+    Minimum film of the smooth contact and film limit in m; `known`: whether the errors are, because
+    the model is one that they were measured of and the case in its range; `together_rms`: rms
+    height of the sum of two deformed surfaces that move together [m]. NaN for what is not known.
+    """
+    of_each = [float(np.std(response.deformed)) for response in friction.responses]
+    deformed = of_each[0]
+    of_all = together_rms if together_rms is not None else math.hypot(*of_each)
+    ratio = film_minimum / of_all if of_all > 0.0 else math.nan
+    rms, increase = friction.increase_rms, friction.increase_max
+    share, share_error = friction.below_limit, friction.below_limit_error
+    if friction.status != "predicted":
+        rms = increase = share = share_error = math.nan
+    values = {
+        "h_min_rough_m": (friction.film_min, film_share(*velocity_ratios) * of_all),
+        "rms_deformed_m": (deformed, RMS_DEFORMED_ERROR * deformed),
+        "lambda_ratio_deformed": (ratio, RMS_DEFORMED_ERROR * ratio),
+        "p_rise_rms_Pa": (rms, INCREASE_RMS_ERROR * rms),
+        "p_rise_max_Pa": (increase, INCREASE_ERROR * increase),
+        "film_below_limit_share": (share, share_error),
+    }
+    result: dict[str, Any] = {"film_limit_m": film_limit or None}
+    for name, (value, error) in values.items():
+        reported = known and math.isfinite(value)
+        result |= {name: value, error_name(name): error if reported else math.nan}
+    return result
+
+
+def error_name(name: str) -> str:
+    """Give the name of the error of a quantity: before the unit."""
+    for unit in ("_m", "_Pa", "_share"):
+        if name.endswith(unit):
+            return f"{name.removesuffix(unit)}_error{unit.replace('_share', '')}"
+    return f"{name}_error"
+
+
+def deformed_surfaces(rows: Sequence[Mapping[str, Any]]) -> dict[str, float | None]:
+    """Give the same over the summaries of several surfaces.
+
+    Means, the maximum pressure increase, the minimum film; the largest of each error. None
+    where one of the surfaces has none.
+    """
+    names = (
+        "lambda_ratio_deformed",
+        "rms_deformed_m",
+        "p_rise_rms_Pa",
+        "p_rise_max_Pa",
+        "h_min_rough_m",
+        "film_below_limit_share",
+    )
+    over = {"p_rise_max_Pa": max, "h_min_rough_m": min}
+    result: dict[str, float | None] = {}
+    for name in names:
+        for key, of_all in ((name, over.get(name, fmean)), (error_name(name), max)):
+            numbers = [row.get(key) for row in rows]
+            result[key] = None if None in numbers else of_all(float(str(v)) for v in numbers)
+    return result
+
+
+def contact_numbers(mixed: MixedFilm | None, boundary: float, *, known: bool) -> dict[str, Any]:
+    """Give the numbers of a summary on contact with a boundary film [a^2/R]; nothing without one.
+
+    `known`: whether the case lies in the range that the response was measured in.
+    """
+    if mixed is None:
+        return {}
+    film = {"h_min_rough_error_m": mixed.film_min_error if known else math.nan}
+    return {
+        **(film if mixed.touches else {}),
+        "boundary_film": boundary,
+        "contact_load_share": mixed.load_share,
+        "contact_load_share_error": mixed.load_share_error,
+        "contact_load_share_error_note": mixed.note,
+        "contact_area_share": mixed.area_share,
+        "contact_area_share_error": mixed.area_share_error,
+    }
 
 
 def summary_of(prediction: Prediction) -> dict[str, Any]:

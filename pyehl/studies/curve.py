@@ -21,9 +21,9 @@ from pyehl import surfaces
 from pyehl.assessment import NO_INLET
 from pyehl.conclusion import Conclusion, conclude
 from pyehl.contact.smooth import film_of
-from pyehl.prediction.friction import BEYOND, deformed_surfaces
-from pyehl.prediction.mixed_lubrication import NO_FRICTION
+from pyehl.prediction.friction import BEYOND, NO_FRICTION
 from pyehl.prediction.model import KNOWN_RATIO
+from pyehl.prediction.summary import deformed_surfaces
 from pyehl.reasons import OF_ROUGH
 from pyehl.results import unit_of
 from pyehl.studies.curve_plan import CurvePlan, CurvePoint

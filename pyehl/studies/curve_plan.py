@@ -16,7 +16,7 @@ from pyehl.case import Case, files_of
 from pyehl.case.duty import refuse_duty
 from pyehl.contact.smooth import CYCLES, touching_points
 from pyehl.errors import InputError
-from pyehl.prediction.model import turned, unpredictable
+from pyehl.prediction.predict import turned, unpredictable
 from pyehl.studies.plan import TaskList, check_maps, check_memory, duration, wall_seconds
 from pyehl.studies.study import MAX_CASES, Axis, Point, Study, make
 from pyehl.studies.tasks import Task

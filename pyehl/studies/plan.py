@@ -21,8 +21,7 @@ from pyehl.case.line import TRANSVERSE
 from pyehl.contact.smooth import POINTS, smooth_case
 from pyehl.errors import InputError
 from pyehl.given import key_of
-from pyehl.prediction.model import unpredictable
-from pyehl.prediction.predict import other_spectra_count
+from pyehl.prediction.predict import other_spectra_count, unpredictable
 from pyehl.solver import Solver
 from pyehl.studies.pool import processors
 from pyehl.studies.study import Point, Study

@@ -16,7 +16,7 @@ import numpy as np
 import scipy.fft
 from tqdm import tqdm
 
-from pyehl.prediction.friction import INCREASE_ERROR
+from pyehl.prediction.summary import INCREASE_ERROR
 from pyehl.subsurface.cycle import Cycle, Fatigue, History, hydrostatic, incomplete, shear_and_mises
 from pyehl.subsurface.half_space import HalfSpace, Layer
 from pyehl.subsurface.loads import Load, Loads, steep_edge

@@ -15,7 +15,7 @@ import pyehl
 from pyehl import errors
 from pyehl.cli import main
 from pyehl.prediction import simulation
-from pyehl.prediction.simulation import starting_pressure
+from pyehl.simulation.initial_condition import starting_pressure
 
 POINT = {"contact.moes_m": 1000.0, "contact.moes_l": 10.0}
 WAVE = POINT | {"surface.kind": "harmonic", "surface.amplitude": 4e-3}

@@ -143,7 +143,7 @@ def test_a_prediction_that_fails_makes_no_error_smaller(monkeypatch, tmp_path: P
     def fails(*_: object) -> None:
         raise errors.EhlError("film breakdown: no full film")
 
-    monkeypatch.setattr("pyehl.prediction.simulation.resolution", fails)
+    monkeypatch.setattr("pyehl.simulation.resolution.resolution", fails)
     with Solver(Case.from_text(LEFT_OUT)) as solver:
         assert "predicted   no mu_r/mu_s: film breakdown: no full film" in solver.describe(
             predict=True
@@ -166,7 +166,7 @@ def test_getters_of_a_solver_compute_nothing(monkeypatch):
     """What the waves left out add is predicted at the end of a run, not where it is read."""
     with Solver(Case.from_text(LEFT_OUT)) as solver:
         solver.run()
-        for name in ("prediction.simulation.resolution", "handle.SolverHandle.advance"):
+        for name in ("simulation.resolution.resolution", "handle.SolverHandle.advance"):
             monkeypatch.setattr(f"pyehl.{name}", lambda *_: pytest.fail("computed"))
         assert solver.summary["mu_ratio_error_left_out"] > 0.0
         assert solver.summary == solver.summary
@@ -202,7 +202,7 @@ def test_nothing_is_predicted_where_nothing_is_left_out(monkeypatch):
     def never(*_: object) -> None:
         raise AssertionError
 
-    monkeypatch.setattr("pyehl.prediction.simulation.solve_contact", never)
+    monkeypatch.setattr("pyehl.simulation.resolution.solve_contact", never)
     with Solver(Case.from_text(LEFT_OUT)) as solver:
         while not solver.advance() and "steps" not in solver.summary:
             pass

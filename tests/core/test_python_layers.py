@@ -22,7 +22,7 @@ LAYERS = [
     ["plots"],
     ["contact"],
     ["prediction", "netcdf"],
-    ["predictions"],
+    ["simulation"],
     ["solver", "progress", "streams"],
     ["run"],
     ["api"],

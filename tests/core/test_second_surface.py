@@ -13,7 +13,7 @@ import pytest
 import pyehl
 from pyehl import Case, Solver, cli
 from pyehl.errors import InputError
-from pyehl.prediction.simulation import resolution
+from pyehl.simulation.resolution import resolution
 from pyehl.solver import solver_on_heights
 
 # One body twice as fast as the other: the fewest positions in which tiles of one length meet

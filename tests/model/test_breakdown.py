@@ -7,8 +7,13 @@ import numpy as np
 import pytest
 
 from pyehl import surfaces
-from pyehl.prediction.advice import advise, suggested_outliers, suggested_wavelength
-from pyehl.prediction.breakdown import BelowZero, below_zero
+from pyehl.prediction.breakdown import (
+    BelowZero,
+    advise,
+    below_zero,
+    suggested_outliers,
+    suggested_wavelength,
+)
 from pyehl.prediction.model import Model
 from pyehl.prediction.predict import predict
 from pyehl.surfaces import Topography, filtered
@@ -163,7 +168,7 @@ def test_suggested_cut_off_has_a_known_error(settings, monkeypatch):
         return other.surfaces[0].topography.length_x > limit
 
     monkeypatch.setattr(Model, "without_shorter", without_shorter)
-    monkeypatch.setattr("pyehl.prediction.advice.known", known)
+    monkeypatch.setattr("pyehl.prediction.breakdown.known", known)
     # full at every cut-off, known from a limit on
     assert advise(model, ended, flat(1e-7)).wavelengths[0] < 3e-4
     limit = 5e-4

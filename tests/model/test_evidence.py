@@ -15,7 +15,7 @@ from document_text import plain
 import pyehl
 from pyehl.prediction import rough_contact
 from pyehl.prediction.model import KNOWN_RATIO, model_error
-from pyehl.prediction.simulation import resolution
+from pyehl.simulation.resolution import resolution
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

@@ -9,7 +9,7 @@ import pytest
 import pyehl
 from pyehl import cli
 from pyehl.errors import InputError
-from pyehl.prediction.advice import advise
+from pyehl.prediction.breakdown import advise
 from pyehl.prediction.predict import seconds_of
 from pyehl.surfaces import Options, Scan, Topography, fractal, prepare
 from pyehl.surfaces.findings import find

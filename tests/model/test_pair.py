@@ -11,8 +11,7 @@ import pytest
 import pyehl
 from pyehl import cli
 from pyehl.contact.smooth import solve_contact, zone_of
-from pyehl.prediction.advice import ways_into_range
-from pyehl.prediction.breakdown import of_model
+from pyehl.prediction.breakdown import of_model, ways_into_range
 from pyehl.prediction.friction import run
 from pyehl.prediction.model import Model, ModelOptions, RoughSurface
 from pyehl.prediction.relative_positions import RelativePositions, common_passages

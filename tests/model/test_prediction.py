@@ -14,15 +14,15 @@ import scipy.ndimage
 import pyehl
 from pyehl.contact.smooth import hertz_contact, read_contact, solve_contact, zone_of
 from pyehl.prediction import model, moving_tile, response, rough_contact
-from pyehl.prediction.advice import ways_into_range
+from pyehl.prediction.breakdown import ways_into_range
 from pyehl.prediction.friction import outcome, run
 from pyehl.prediction.model import KNOWN_RATIO, Model, ModelOptions
 from pyehl.prediction.moving_tile import WaveTiles
 from pyehl.prediction.predict import predict
 from pyehl.prediction.response import Transfer, film_left, leaking_at_amplitude, loss_at
-from pyehl.prediction.simulation import resolution
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.schema import summary_of
+from pyehl.simulation.resolution import resolution
 from pyehl.surfaces import Topography, filtered
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

@@ -15,8 +15,9 @@ from scipy import optimize
 import pyehl
 from pyehl.case import Case
 from pyehl.contact.smooth import solve_contact, zone_of
-from pyehl.prediction.simulation import resolution, starting_pressure
 from pyehl.schema import summary_of
+from pyehl.simulation.initial_condition import starting_pressure
+from pyehl.simulation.resolution import resolution
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 
 import pyehl
-from pyehl.prediction.sheared_contact import INNER, NEAR
+from pyehl.contact.sheared import INNER, NEAR
 from pyehl.solver import Solver
 from pyehl.theory.operating import OperatingPoint
 

@@ -8,7 +8,6 @@ lengths along the surface by a, films by a^2/R, pressures by p_h.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -24,14 +23,6 @@ NEAR = 0.5
 """Their rms is reported within this distance [a]."""
 MIN_SAMPLES = 128
 """Fewest points per Hertz radius when not all pixels are visited, in the model of the paper."""
-
-
-@dataclass(frozen=True, slots=True)
-class Response:
-    """Response of a loaded contact to a rough tile, with the properties of its centre."""
-
-    pressure: Array  # delta p (nx, ny) [Pa], mean zero
-    deformed: Array  # deformed roughness rr_d (nx, ny) [m], mean zero, peaks thin the film
 
 
 def thins(lubricant: Lubricant, operating: AnyContact) -> bool:

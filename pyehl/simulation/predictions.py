@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Predictions for a run: its start, and the waves that its grid does not resolve."""
+"""The predictions for a run, each made once and on demand."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from pyehl.handle import SolverHandle, results_of, start_fronts, take_prediction
 from pyehl.surfaces import Topography
 
 if TYPE_CHECKING:
-    from pyehl.prediction.simulation import Resolution
+    from pyehl.simulation.resolution import Resolution
 
 
 class Predictions:
-    """The predictions for a run, each made once and on demand.
+    """The start of a run, and what the waves contribute that its grid does not resolve.
 
-    The first one imports `pyehl.prediction`.
+    The package of the prediction is loaded on demand.
 
     Parameters
     ----------
@@ -46,14 +46,14 @@ class Predictions:
     def begin(self, solver: SolverHandle) -> None:
         """Pass a solver the predicted start, if it needs one."""
         if start_fronts(solver).size:
-            from pyehl.prediction.simulation import transfer  # noqa: PLC0415
+            from pyehl.simulation.initial_condition import transfer  # noqa: PLC0415
 
             transfer(solver, self._case.resolve(), self._tiles, whole=self._whole)
 
     def _resolution_once(self) -> Resolution | str | None:
         """Predict the part that the grid does not resolve, or give the reason for a failure."""
         if not self._resolved:
-            from pyehl.prediction.simulation import resolution  # noqa: PLC0415
+            from pyehl.simulation.resolution import resolution  # noqa: PLC0415
 
             try:
                 self._resolution = resolution(self._case, self._tiles)
