@@ -88,10 +88,10 @@ def work(args: argparse.Namespace) -> Row:
     return {"rows": rows}
 
 
-def main(words: Sequence[str] | None = None) -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run the script."""
     made = parser(__doc__, points=GRIDS, threads=(1, 2))
-    return measure(work, made, words)
+    return measure(work, made, arguments)
 
 
 if __name__ == "__main__":

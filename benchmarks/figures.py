@@ -116,8 +116,14 @@ def draw_work(rows: Sequence[Values], path: Path) -> None:
                     if row["setting"] == setting + more and row["error"] and row["threads"] == 1
                 ]
                 if result:
-                    how = {"ls": line, "mfc": face, "color": colour, "marker": marker, "lw": 0.8}
-                    ax.loglog(*zip(*result, strict=True), label=name + more, **how)
+                    options = {
+                        "ls": line,
+                        "mfc": face,
+                        "color": colour,
+                        "marker": marker,
+                        "lw": 0.8,
+                    }
+                    ax.loglog(*zip(*result, strict=True), label=name + more, **options)
         bars = [row["bar"] for row in mine if row["bar"]]
         if bars:
             lowest = 0.5 * min(bars[0], *(row["error"] for row in mine if row["error"]))

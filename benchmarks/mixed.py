@@ -309,13 +309,13 @@ def summary(rows: Sequence[Row]) -> list[Row]:
     return table
 
 
-def main(words: Sequence[str] | None = None) -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run the script."""
     made = parser(__doc__, points=GRIDS)
     add_number(made, "contacts", 100, "how many", minimum=1)
     add_number(made, "seed", 1)
     add_number(made, "simulate", 40, "of how many the rough contact is simulated", minimum=0)
-    return measure(work, made, words)
+    return measure(work, made, arguments)
 
 
 if __name__ == "__main__":

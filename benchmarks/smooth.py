@@ -186,14 +186,14 @@ def work(args: argparse.Namespace) -> Row:
     return {"exponents": slopes, "moes_m": args.moes_m, "moes_l": args.moes_l, "rows": rows}
 
 
-def main(words: Sequence[str] | None = None) -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run the script."""
     made = parser(__doc__, points=GRIDS, threads=(1, 2))
     add_list(made, "engines", ENGINES, known=ENGINES)
     add_number(made, "moes-m", 1000.0)
     add_number(made, "moes-l", 10.0)
     add_list(made, "cases", CASES[:1], ", each in turn with the first", CASES)
-    return measure(work, made, words)
+    return measure(work, made, arguments)
 
 
 if __name__ == "__main__":

@@ -300,7 +300,7 @@ def work(args: argparse.Namespace) -> Row:
     return answer
 
 
-def main(words: Sequence[str] | None = None) -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run the script."""
     made = parser(__doc__, points=GRIDS[1:4], threads=(1, 2))
     names = list(dict.fromkeys(problem.name for problem in CASES))
@@ -314,7 +314,7 @@ def main(words: Sequence[str] | None = None) -> int:
         action="store_true",
         help="whole runs too, for the error of mu_r/mu_s against the finest grid",
     )
-    return measure(work, made, words)
+    return measure(work, made, arguments)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 """Check the built site: python docs/check_site.py build/docs.
 
 No broken link or anchor, no picture without words, no file from a network, a description on each
-page, a first page that is light, and a search that knows the words of the field. The exit status
+page, a first page that is light, and a search that finds the words of the field. The exit status
 is 1 if something is wrong.
 """
 
@@ -16,7 +16,7 @@ from urllib.parse import unquote, urldefrag
 FIRST_PAGE = 300_000
 """Most bytes of the first page with all of its files."""
 WORDS = ("minimum", "film", "thick")
-"""Stems that the search must know of one page."""
+"""Stems that the search must find on one page."""
 # Made by other programs: their insides are not ours
 FOREIGN = ("fortran/",)
 

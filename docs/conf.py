@@ -96,7 +96,7 @@ SOURCES = {
     for name in (path.as_posix(), path.relative_to(path.parts[0]).as_posix(), path.name)
     if name != path.name or NAMES[name] == 1
 }
-"""Files of the source by their paths and by what the chapters write of them."""
+"""Files of the source by their paths and by the names that the chapters use."""
 
 
 def lead_to_sources(app: Sphinx, name: str, source: list[str]) -> None:
@@ -115,7 +115,7 @@ def lead_to_sources(app: Sphinx, name: str, source: list[str]) -> None:
 
 
 LONGEST = 155
-"""Letters of a description that search engines show."""
+"""Characters of a description that search engines show."""
 
 
 def describe(

@@ -36,7 +36,7 @@ def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None =
     Raises
     ------
     InputError
-        If `folder` is not a result folder, or another file is in the way.
+        If `folder` is not a result folder, or `path` is a file that `export` did not write.
     FileError
         If the file cannot be written.
 

@@ -70,7 +70,7 @@ def with_error(value: float, error: float, decimals: int, unit: str, error_digit
     shown = max(abs(error), 1e-9 * abs(value), 2.3e-308)
     places = max(0, error_digits - 1 - math.floor(math.log10(shown)))
     if 0.0 < abs(value) < 1e-4:
-        behind = min(15, max(1, places + math.floor(math.log10(abs(value)))))
-        return f"{value:.{behind}E} +- {error:.1E}{unit}"
+        decimals = min(15, max(1, places + math.floor(math.log10(abs(value)))))
+        return f"{value:.{decimals}E} +- {error:.1E}{unit}"
     places = min(9, places)
     return f"{value:.{places}f} +- {error:.{places}f}{unit}"

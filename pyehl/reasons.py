@@ -230,45 +230,47 @@ def words_of(results: Results, settings: Settings, no_prediction: str = "") -> d
 
 def _why_no_result(results: Results, settings: Settings, words: Mapping[int, str]) -> str:
     """Say why a run has no result, where it ended, and what to do about it, in one line."""
-    v, d, status, text = results.values, results.details, results.values["status"], ""
+    d, status = results.details, results.values["status"]
     if "end_phase" not in d:
         return ""
-    place, phase = _place(d, "end_"), d["end_phase"]
-    help_ = words.get(results.codes["end_help"], "") if phase == SMOOTH else ""
-    finer = help_ or f"give a finer grid (grid.points = {2 * int(d['finest_points']) - 1})"
-    of_inlet = phase == SMOOTH and settings.get("inlet", {}).get("film_hertz", 0.0) > 0.0
-    inlet = ", or inlet.position in place of inlet.film" if of_inlet else ""
-    if settings["contact"].get("shape") == "roller":
-        cells = f"shorter cells along the roller (grid.points_y = {2 * int(d['finest_rows']) - 1})"
-        if status == "negative film" and phase == SMOOTH and not help_:
-            deeper = f"give a profile that drops more ({_steeper(settings['contact'])})"
-            help_ = f"{deeper}, or {cells}{inlet}"
-        else:
-            help_ = f"{finer}{inlet}, {cells} or a profile that drops more"
-    else:
-        help_ = finer + inlet
+    place = _place(d, "end_")
+    remedy = _remedy(results, settings, words)
     if status == "negative film":
-        rough = any(
-            settings.get(group, {}).get("kind", "smooth") != "smooth"
-            for group in ("surface", "second_surface")
-        )
-        text = _of_negative_film(v, d, place, help_, si=bool(v.get("film_scale_m")), rough=rough)
-    elif status == "cycle limit":
-        text = (
+        return _of_negative_film(results, settings, place, remedy)
+    if status == "cycle limit":
+        return (
             f"the residual of {place} is {power(d['end_residual'], 1)} after cycle "
-            f"{d['end_cycles']:.0f}; {help_}, or a larger solver.max_cycles where the residual "
+            f"{d['end_cycles']:.0f}; {remedy}, or a larger solver.max_cycles where the residual "
             "still falls"
         )
-    elif status == "diverged":
-        text = f"{place} has a value that is not a number; {help_} or solver.cycle = 'W'"
-    elif status == "interrupted":
+    if status == "diverged":
+        return f"{place} has a value that is not a number; {remedy} or solver.cycle = 'W'"
+    if status == "interrupted":
         if "coarser_end_phase" in d:
             place = f"the run for the grid error: {_place(d, 'coarser_end_')}"
-        resumes = "; --resume continues from there" if phase == STEPS else ""
-        text = f"stopped from outside in {place}{resumes}"
-    elif status == "not settled":
-        text = _of_mean(d, settings["time"])
-    return text
+        resumes = "; --resume continues from there" if d["end_phase"] == STEPS else ""
+        return f"stopped from outside in {place}{resumes}"
+    return _of_mean(d, settings["time"]) if status == "not settled" else ""
+
+
+def _remedy(results: Results, settings: Settings, words: Mapping[int, str]) -> str:
+    """Say what may give a solution: as the library says, else a finer grid.
+
+    Of a roller also shorter cells along it, and a profile that drops more: first of all where its
+    smooth contact has no positive film and the library knows no remedy.
+    """
+    d, smooth = results.details, results.details["end_phase"] == SMOOTH
+    known = words.get(results.codes["end_help"], "") if smooth else ""
+    finer = known or f"give a finer grid (grid.points = {2 * int(d['finest_points']) - 1})"
+    of_inlet = smooth and settings.get("inlet", {}).get("film_hertz", 0.0) > 0.0
+    inlet = ", or inlet.position in place of inlet.film" if of_inlet else ""
+    if settings["contact"].get("shape") != "roller":
+        return finer + inlet
+    cells = f"shorter cells along the roller (grid.points_y = {2 * int(d['finest_rows']) - 1})"
+    if smooth and not known and results.values["status"] == "negative film":
+        steeper = _steeper(settings["contact"])
+        return f"give a profile that drops more ({steeper}), or {cells}{inlet}"
+    return f"{finer}{inlet}, {cells} or a profile that drops more"
 
 
 def _steeper(contact: Values) -> str:
@@ -298,23 +300,24 @@ def _of_mean(d: Values, time: Values) -> str:
     )
 
 
-def _of_negative_film(
-    v: Values, d: Values, place: str, help_: str, *, si: bool, rough: bool
-) -> str:
-    """Say that there is no positive film, because of the grid or of the roughness."""
+def _of_negative_film(results: Results, settings: Settings, place: str, remedy: str) -> str:
+    """Say that there is no positive film: by the grid, or by the roughness."""
+    v, d = results.values, results.details
     if d["end_phase"] == SMOOTH:
-        return f"{place} has no positive film: {help_}"
+        return f"{place} has no positive film: {remedy}"
+    si = bool(v.get("film_scale_m"))
     text = f"no solution with a positive film for {place}"
     if "end_film_before" in d:
         film = d["end_film_before"]
         shown = f"{fixed(film * v['film_scale_m'] * 1e9, 1)} nm" if si else ""
         text += f", minimum film before {shown or 'H_min = ' + power(film, 3)}"
+    kinds = [settings.get(name, {}).get("kind", "smooth") for name in ("surface", "second_surface")]
+    if kinds == ["smooth", "smooth"]:
+        return f"{text}: {remedy}"
     nodes, enough = d["end_wave_nodes"], d["enough_wave_nodes"]
-    if not rough:
-        return f"{text}: {help_}"
     text += f"; the shortest waves have {nodes:.0f} nodes"
     if nodes < enough:
-        text += f", and as high as the film they need {enough:.0f}: {help_}, a smoother surface"
+        text += f", and as high as the film they need {enough:.0f}: {remedy}, a smoother surface"
     else:
         text += " or more: give a smoother surface"
     if si and not d["boundary_film_given"]:

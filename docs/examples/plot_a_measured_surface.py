@@ -3,7 +3,7 @@
 A measured surface, prepared step by step
 =========================================
 
-A raw scan has holes, spikes, tilt and curvature, and its opposite edges do not match.
+A raw scan has missing points, spikes, tilt and curvature, and its opposite edges do not match.
 :doc:`/howto/measured-surface` explains the keys of each step. This example needs the extra
 ``surfaces``.
 """

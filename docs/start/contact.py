@@ -33,8 +33,8 @@ def on_one_line(path: Path) -> None:
 
 def arrow(ax: Axes, tip: tuple[float, float], tail: tuple[float, float], **more: Any) -> None:  # noqa: ANN401
     """Draw an arrow between two places."""
-    how = {"arrowstyle": "-|>", "lw": 1.2, "color": "black", "shrinkA": 0, "shrinkB": 0, **more}
-    ax.annotate("", tip, tail, arrowprops=how)
+    style = {"arrowstyle": "-|>", "lw": 1.2, "color": "black", "shrinkA": 0, "shrinkB": 0, **more}
+    ax.annotate("", tip, tail, arrowprops=style)
 
 
 def sketch(ax: Axes) -> None:

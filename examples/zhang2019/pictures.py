@@ -82,14 +82,14 @@ def _points(ax: Axes, series: Sequence[Series], *, lines: bool) -> None:
     lengths = sorted({s.wavelength for s in series})
     for s in series:
         k = lengths.index(s.wavelength)
-        how: dict[str, Any] = {
+        style: dict[str, Any] = {
             "ms": 3,
             "lw": 0.7,
             "color": COLOURS[k],
             "mfc": "none",
             "label": s.label,
         }
-        ax.plot(s.place, s.friction, f"{MARKERS[k % 3]}{'-' * lines}", **how)
+        ax.plot(s.place, s.friction, f"{MARKERS[k % 3]}{'-' * lines}", **style)
 
 
 def _legend_of_waves(figure: Figure, ax: Axes) -> None:

@@ -80,7 +80,7 @@ def film_map(result: Film) -> Map:
 
 def contour_lines(made: Map) -> tuple[Array, Array]:
     """Lines of equal film as one line x, y [mm], interrupted by NaN."""
-    low, high = float(made.film.min()), HIGHEST * made.central
+    low, high = float(made.film.min()), MAX_FILM * made.central
     step = _round((high - low) / LEVELS)
     levels = step * np.arange(math.ceil(low / step), math.floor(high / step) + 1)
     generator = contourpy.contour_generator(

@@ -189,7 +189,7 @@ class Pictures:
         change = self.changes.of
         made = drawing.film_map(result)
         lowest = float(made.film.min())
-        change(self.levels, low=lowest, high=drawing.HIGHEST * made.central)
+        change(self.levels, low=lowest, high=drawing.MAX_FILM * made.central)
         film = {"colours": [made.colours], "film": [made.film.astype(np.float32)]}
         box = {"x": [made.left], "y": [made.bottom], "dw": [made.width], "dh": [made.height]}
         change(self.film, data={**film, **box})

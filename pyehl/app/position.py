@@ -217,11 +217,11 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
     """
     settings = case.resolve()
     if "second_surface" in rough_groups(settings):
-        raise InputError("second_surface: the page knows one rough surface, that of &surface")
+        raise InputError("second_surface: the page takes one rough surface, that of &surface")
     surface = settings["surface"]
     kind = str(surface["kind"])
     if kind not in KINDS:
-        raise InputError(f"surface.kind = '{kind}': the page knows {', '.join(KINDS)}")
+        raise InputError(f"surface.kind = '{kind}': the page takes {', '.join(KINDS)}")
     contact, lubricant = settings["contact"], settings["lubricant"]
     if lubricant.get("table"):
         raise InputError("lubricant.table: the page knows viscosities, data sheets and names")

@@ -111,7 +111,7 @@ class _Groups:
             what = f"unknown group &{opening.text}"
             expected = names.unknown_group(opening.text, "&")
         elif group in seen:
-            what, expected = f"group &{group} is there twice", "all keys of a group in one place"
+            what, expected = f"group &{group} is given twice", "all keys of a group in one place"
         else:
             seen.add(group)
             return group
@@ -163,7 +163,7 @@ class _Groups:
     def _refuse_list(self, name: Token, key: Key) -> None:
         """Refuse a second value; every key takes one. `name` follows a comma."""
         if name.kind == COMMA:
-            what = "two commas behind "
+            what = "two commas after "
         elif name.kind in (STRING, OPEN_STRING) or (
             name.kind == ATOM and name.text[0] in "0123456789+-.*"
         ):
@@ -181,10 +181,10 @@ class _Groups:
                 return
             full = f"{self.group}.{name.text.lower()}"
             if full in KEYS:
-                self.source.refuse(behind, behind + 1, f"no '=' behind {full}", "'=' and a value")
+                self.source.refuse(after, after + 1, f"no '=' after {full}", "'=' and a value")
         what, expected = f"unexpected text in &{self.group}", "a key of the group, or '/'"
         if before is not None:
-            what = f"text behind the value of {before.name}"
+            what = f"text after the value of {before.name}"
             if name.kind == ATOM:
                 what = what if before.unit == "-" else f"unit or other {what}"
                 expected = f"{before.expected} and nothing else, then the next key or '/'"
@@ -238,7 +238,7 @@ def _find(source: Source, group: str, name: Token, given: dict[str, Place]) -> K
         what = f"unknown key '{name.text}' in &{group}"
         source.refuse(name.first, name.end, what, names.unknown_key(name.text, group))
     if key.name in given and source.has_lines:
-        what = f"key {key.name} is there twice"
+        what = f"key {key.name} is given twice"
         source.refuse(name.first, name.end, what, "every key once")
     return key
 
@@ -274,7 +274,7 @@ def _read_option(draft: Draft, number: int) -> None:
     if first >= last:
         source.refuse(equals + 1, equals + 2, f"no value for {key.name}", key.expected)
     if value.kind == STRING and value.end < last:
-        what = f"text behind the value of {key.name}"
+        what = f"text after the value of {key.name}"
         source.refuse(value.end, last, what, "nothing more")
     if value.kind != STRING:
         # without quotes the rest of the option is the value, whatever it looks like

@@ -13,7 +13,7 @@ GROUPS = ("surface", "second_surface")
 MAX_SEED = 2147483647
 # Size of the tile of Table 1 of Zhang et al. 2019 [m]
 FRACTAL_LENGTH = 8.29e-4
-# Rq over Ra of normal heights
+# Rq over Ra of normally distributed heights
 RQ_OVER_RA = math.sqrt(0.5 * math.pi)
 # Front of roughness that reaches the contact, and that has filled it [a], as in fortran/surface
 X_MATTERS, X_FILLED = -1.25, 1.05

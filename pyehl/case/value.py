@@ -95,7 +95,7 @@ def _number(key: Key, token: Token, *, is_option: bool) -> float | int:
             raise BadValue("not one plain number")
         if match is None:
             raise BadValue("not a number")
-        raise BadValue("text behind the number", match.end())
+        raise BadValue("text after the number", match.end())
     value = float(text.lower().replace("d", "e"))
     if abs(value) == float("inf"):
         raise BadValue("too large for a number")

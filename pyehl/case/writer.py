@@ -79,8 +79,8 @@ def _ends(key: Key) -> tuple[str, str]:
 
 
 def _line(key: Key, value: Value) -> str:
-    before, behind = _ends(key)
-    return f"{before + to_text(value):<43} {behind}"
+    before, after = _ends(key)
+    return f"{before + to_text(value):<43} {after}"
 
 
 @cache

@@ -10,7 +10,7 @@ from pyehl.theory.oils import Oil, film_forming, reciprocal_isoviscous
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.description = (
-        "Oils that lubricant.name knows: constants, their ranges and sources, viscosity and "
+        "Oils of lubricant.name: constants, their ranges and sources, viscosity and "
         "pressure-viscosity coefficients at a temperature."
     )
     parser.add_argument("names", metavar="NAME", nargs="*", help="names of oils (default: all)")

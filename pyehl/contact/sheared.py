@@ -57,10 +57,10 @@ class ShearedContact:
         """Count from now on how many points have less film than each of some levels."""
         self.levels, self.below = levels, np.zeros(len(levels), dtype=np.int64)
 
-    def meet(
+    def accumulate(
         self, increase: Array | Single, pressure: Array, film: Array, inner: Indices, near: Indices
     ) -> None:
-        """Note what a position has at its points; which of them are within INNER and NEAR."""
+        """Accumulate the extremes at the points of a position; `inner`, `near`: INNER, NEAR."""
         squares = np.square(increase.take(near), dtype=np.float64)
         self.squared_increase += float(squares.mean()) if near.size else math.nan
         maximum = float(increase.take(inner).max(initial=-math.inf))
@@ -160,7 +160,7 @@ class HertzContact(ShearedContact):
             scale = (1.0 - carried) ** (1.0 / 3.0)
             pressure = scale * np.sqrt(np.maximum(0.0, 1.0 - self.radius_squared / scale**2))
         pressure = pressure + delta
-        self.meet(delta, pressure, film, self.inner, self.near)
+        self.accumulate(delta, pressure, film, self.inner, self.near)
         tension = pressure <= 0.0
         self.cavitated += int(np.count_nonzero(tension))
         pressure[tension] = 0.0

@@ -126,7 +126,7 @@ def perform(
     inputs: tuple[str, ...] = (),
     force: bool = False,
     watcher: Watcher | None = None,
-    **how: Any,  # noqa: ANN401 (as of `gather`)
+    **execution: Any,  # noqa: ANN401 (as in `gather`)
 ) -> tuple[MachineResult, Outcome]:
     """Run the missing contacts of a machine element, and write its folder.
 
@@ -141,7 +141,7 @@ def perform(
     if folder is not None:
         place = Destination(Path(folder), command, names, inputs, force=force)
     if todo.tasks.tasks:
-        outcome = gather(todo.tasks.tasks, todo.identity(), place, watcher=watcher, **how)
+        outcome = gather(todo.tasks.tasks, todo.identity(), place, watcher=watcher, **execution)
         result = todo.result(outcome.rows)
         if place is not None:
             _write(Path(place.folder), todo, result, names)
@@ -179,13 +179,13 @@ def _call(
     groups: Mapping[str, Mapping[str, Any]],
     run: str,
     output: str | os.PathLike[str] | None,
-    **how: Any,  # noqa: ANN401 (as of `gather`)
+    **execution: Any,  # noqa: ANN401 (as in `gather`)
 ) -> MachineResult:
-    check_jobs(how["jobs"])
+    check_jobs(execution["jobs"])
     todo = Prepared(case, [*options, groups], kinds, run)
     folder = None if output is None else path_of(output, "output")
     inputs = () if case is ... else (path_of(case, "case"),)
-    result, outcome = perform(todo, folder, command, inputs=inputs, **how)
+    result, outcome = perform(todo, folder, command, inputs=inputs, **execution)
     if outcome.interrupted:
         raise KeyboardInterrupt
     return result
@@ -244,8 +244,8 @@ def bearing(
     (['inner', 'outer'], 'cage')
     """
     kinds = ("ball_bearing", "roller_bearing")
-    how = {"force": force, "jobs": jobs, "scheduler": scheduler}
-    return _call("bearing", kinds, case, options, groups, run, output, **how)
+    execution = {"force": force, "jobs": jobs, "scheduler": scheduler}
+    return _call("bearing", kinds, case, options, groups, run, output, **execution)
 
 
 def gear(
@@ -289,5 +289,5 @@ def gear(
     >>> round(result.summary["contact_ratio"], 2)
     1.44
     """
-    how = {"force": force, "jobs": jobs, "scheduler": scheduler}
-    return _call("gear", ("spur_gear",), case, options, groups, run, output, **how)
+    execution = {"force": force, "jobs": jobs, "scheduler": scheduler}
+    return _call("gear", ("spur_gear",), case, options, groups, run, output, **execution)

@@ -157,7 +157,7 @@ def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
             x, y, field, scales,
             top=top, name=name, bar=field is deformed, outline=outline, ax=ax,
         )  # fmt: skip
-    _once(list(figure.axes), outline)
+    _share_labels(list(figure.axes), outline)
     return figure
 
 
@@ -295,7 +295,7 @@ def _roughness(
         last = values is deformed
         a, kappa = about["hertz_radius_m"], about.get("ellipticity", 1.0)
         surface.roughness(tile, values, a, name=name, bar=last, ellipticity=kappa, ax=ax)
-    _once(list(figure.axes), outline)
+    _share_labels(list(figure.axes), outline)
     return figure
 
 

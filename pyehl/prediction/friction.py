@@ -320,7 +320,7 @@ def _over_tracks(
     tracks: int,
     first: float,
 ) -> list[float]:
-    """mu_r/mu_s on so many tracks, `first` on that of the case."""
+    """mu_r/mu_s on a number of tracks, `first` on that of the case."""
     offsets = [track_offsets(one.topography, tracks) if tracks else [] for one in model.in_order]
     if len(waves) == 1:
         pixel = model.surfaces[0].topography.length_y / waves[0].spectrum.shape[1]

@@ -345,7 +345,7 @@ class Model:
         return [working_grid(one.topography, self.operating, positions) for one in self.surfaces]
 
     def stride_of(self, spectrum: Spectrum, points: float) -> int:
-        """Stride of the pixels that leaves so many points per shorter semi-axis.
+        """Stride of the pixels that leaves `points` points per shorter semi-axis.
 
         1 in the model of the paper, which takes all of them.
         """
@@ -384,7 +384,7 @@ class Model:
         return RoughContact.on_pixels(*of, self.pixel_tile(first, PIXEL_POINTS), powers)
 
     def pixel_tile(self, wave: Component, points: float) -> PixelTile:
-        """Give a tile with so many of its pixels per shorter semi-axis, or more."""
+        """Give a tile with `points` of its pixels per shorter semi-axis, or more."""
         stride = self.stride_of(wave.spectrum, points)
         return PixelTile(wave, self.contact.central_film, stride, self.operating)
 

@@ -111,11 +111,11 @@ class Edge:
             for k, part in zip(*harmonics(parts), strict=True):
                 there = qy + k / shape.ellipticity
                 q = np.hypot(qx, there)
-                feels = (q > 1e-9) & (q < ellipse.largest)
-                if feels.any():
-                    wave = qx[feels], there[feels]
-                    result[:, feels] += ellipse.correction(*wave) * part[feels]
-                    displacement[:, feels] += ellipse.displacement(*wave) * part[feels]
+                depends = (q > 1e-9) & (q < ellipse.largest)
+                if depends.any():
+                    wave = qx[depends], there[depends]
+                    result[:, depends] += ellipse.correction(*wave) * part[depends]
+                    displacement[:, depends] += ellipse.displacement(*wave) * part[depends]
         return cls(qx, qy, result, displacement, shape)
 
     def below(self, limit: float) -> Edge:
@@ -165,7 +165,7 @@ class WaveTiles:
     # What is added to the free waves beside the centre line, over line, as waves along the motion
     # (n, 2, ny/stride, nx//2 + 1); None without free waves
     off_centre: Narrow | None
-    stride: int  # every so many-th column of the tile is there
+    stride: int  # every stride-th column of the tile is there
     bent: bool  # as in :class:`Transfer`
 
     @classmethod

@@ -18,11 +18,11 @@ import numpy as np
 
 from pyehl import blas, lengths, surfaces
 from pyehl.case.duty import refuse_duty
+from pyehl.contact.result_folder import read_contact
 from pyehl.contact.smooth import (
     SmoothContact,
     heat_of,
     hertz_contact,
-    read_contact,
     solve_contact,
     with_boundary_film,
 )

@@ -32,7 +32,7 @@ EXTREMES = 32
 """Positions at which minimum film and maximum increase of the pressure are looked for: at twice as
 many they differ by 1 % at most (docs/evidence/thinning)."""
 
-MOST_PASSAGES = 12
+MAX_PASSAGES = 12
 """Maximum number of passages of a tile in a common period that is used: products of waves with a
 mean over a longer one are of that order."""
 LATTICES = (9, 13, 19, 27)
@@ -70,7 +70,7 @@ class TilePositions:
         return float(np.mean([friction((int(step), track)) for step in steps]))
 
     def passage(self, friction: Friction, positions: int, largest: float) -> Passage:
-        """Give mu_r/mu_s in so many positions over the length of the tile; 0: as many as it takes.
+        """Give mu_r/mu_s in a number of positions over the length of the tile; 0: as needed.
 
         No more are added to a mean above `largest`.
         """
@@ -121,8 +121,8 @@ def common_passages(
     if one == 0.0 or other == 0.0:
         return int(one > 0.0), int(other > 0.0)
     ratio = one / other
-    result = Fraction(ratio).limit_denominator(MOST_PASSAGES)
-    if result.numerator > MOST_PASSAGES or not math.isclose(result, ratio, rel_tol=SAME):
+    result = Fraction(ratio).limit_denominator(MAX_PASSAGES)
+    if result.numerator > MAX_PASSAGES or not math.isclose(result, ratio, rel_tol=SAME):
         return None
     return result.numerator, result.denominator
 

@@ -131,7 +131,7 @@ class RoughContact(ShearedContact):
         powers: Sequence[Array] | None = None,
         tracks: Sequence[float] = (0.0, 0.0),
     ) -> RoughContact:
-        """Under two surfaces, at so many points per semi-axis; `tracks` of both [a]."""
+        """Under two surfaces, at `points` points per semi-axis; `tracks` of both [a]."""
         half = int(REACH * points)
         x = np.arange(-half, half + 1) / points
         shape = waves[0].edge.shape
@@ -311,7 +311,7 @@ class RoughContact(ShearedContact):
         self.cavitated += tensile.size
         whole = film + missing(self.contact, smooth, self.lowest)
         self.minimum = min(self.minimum, float(whole.min(initial=math.inf)))
-        self.meet(gain, pressure, whole, self.inner, self.near)
+        self.accumulate(gain, pressure, whole, self.inner, self.near)
         if tensile.size:
             load = np.bincount(self.rings, pressure, len(RINGS))
             tension = np.bincount(self.rings[tensile], pressure[tensile], len(RINGS))

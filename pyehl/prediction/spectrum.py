@@ -108,7 +108,7 @@ class Spectrum:
         if lines is not None:
             return np.asarray((lines.T @ part.T) * (refinement / ny))
         if stride > 1:
-            # on every so many-th column waves that differ by its wavenumber are one
+            # on every stride-th column waves that differ by its wavenumber are one
             part = part.reshape(part.shape[0], stride, -1).sum(axis=1)
         across = np.ascontiguousarray(np.fft.ifft(part, axis=1).T)
         across *= refinement / stride
@@ -144,7 +144,7 @@ class Spectrum:
 def _fewer_pixels(pixels: int, length: float, limit: float, semi_axis: float) -> int:
     """Pixels for waves below a limit [1/a] in a contact, as a mean over a few positions takes them.
 
-    Of a tile of a length [a] that has so many, along a semi-axis of the contact [a].
+    Of a tile of a length [a] with `pixels` pixels, along a semi-axis of the contact [a].
     """
     if math.isinf(limit):
         return pixels
@@ -320,7 +320,7 @@ class Band:
 
 
 def octaves(q: Array, power: Array, *, only: int = 0) -> Iterator[tuple[float, Mask, bool]]:
-    """Octaves of wavelengths that hold roughness, longest first; `only` the last so many, 0: all.
+    """Octaves of wavelengths that hold roughness, longest first; `only` the last few, 0: all.
 
     `q` is |q| of the components, of any shape and unit, `power` what each adds to the mean square
     height; at most `NOTHING` of the largest counts for none (a harmonic pattern has rounding errors

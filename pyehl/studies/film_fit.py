@@ -120,13 +120,13 @@ def fit_coefficient(settings: Settings, measured: Measured, points: int) -> Fit:
     ends = float(speeds[0]), float(speeds[-1])
     low, high = KEYS[f"lubricant.{KEY}"].interval[:2]
 
-    def off(x: Array) -> Array:
+    def residuals(x: Array) -> Array:
         return weight * (table.films(speeds, math.exp(x[0])) / films - 1.0)
 
     guess = float(settings["lubricant"][KEY])
     for _ in range(TABLES):
         table = FilmTable(base, ends, guess)
-        result = least_squares(off, [table.middle], xtol=1e-12, ftol=1e-12)
+        result = least_squares(residuals, [table.middle], xtol=1e-12, ftol=1e-12)
         guess = math.exp(float(result.x[0]))
         if not low < guess < high:
             break
@@ -136,17 +136,17 @@ def fit_coefficient(settings: Settings, measured: Measured, points: int) -> Fit:
         ratio = float(np.exp(np.mean(np.log(films / table.films(speeds, math.exp(table.middle))))))
         guess = math.exp(table.middle) * ratio ** (1.0 / POWER)
     else:
-        raise EhlError(f"the fit of {KEY} did not settle; the last value is {guess:.3g} 1/Pa")
+        raise EhlError(f"the fit of {KEY} did not converge; the last value is {guess:.3g} 1/Pa")
     if not low < guess < high:
         raise EhlError(
             f"the fit of {KEY} ends at {guess:.3g} 1/Pa, where the range of the key ends: the data "
             "do not determine it"
         )
     ((bottom, top),) = intervals((KEY,), result.jac, result.fun, result.x)
-    of_speed, of_coefficient = table.powers(speeds, guess)
+    of_speed, of_coefficient = table.exponents(speeds, guess)
     notes = (
-        f"film by powers: speed {of_speed:.2f}, {KEY} {of_coefficient:.2f}; a viscosity 10 % "
-        f"too high makes {KEY} {1.0 - 1.1 ** (-of_speed / of_coefficient):.0%} too low",
+        f"exponents of the film: speed {of_speed:.2f}, {KEY} {of_coefficient:.2f}; a viscosity 10 "
+        f"% too high makes {KEY} {1.0 - 1.1 ** (-of_speed / of_coefficient):.0%} too low",
         f"relative residual {np.sqrt(np.mean((table.films(speeds, guess) / films - 1.0) ** 2)):.1%}"
         " (rms)",
     )

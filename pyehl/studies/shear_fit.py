@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 def lubricants(
     *names: str, temperature: float = 40.0, output: str | os.PathLike[str] | None = None
 ) -> dict[str, Oil]:
-    """Give the oils that `lubricant.name` knows, and draw them if a folder is given.
+    """Give the oils of `lubricant.name`, and draw them if a folder is given.
 
     Parameters
     ----------

@@ -350,7 +350,7 @@ def _refuse_repeats(together: Sequence[Axis]) -> None:
         if count > 1:
             names = ", ".join(a.key for a in together)
             listed = repr(values[0]) if len(values) == 1 else ", ".join(map(repr, values))
-            raise InputError(f"{names}: the value {listed} is there twice")
+            raise InputError(f"{names}: the value {listed} is given twice")
 
 
 def _dimensions(
@@ -364,12 +364,12 @@ def _dimensions(
                 f"keys that move together: '{key}' is not varied{did_you_mean(key, known)}"
             )
         if count > 1:
-            raise InputError(f"keys that move together: '{key}' is there twice")
+            raise InputError(f"keys that move together: '{key}' is given twice")
     for group in groups:
         sizes = {key: len(known[key].values) for key in group}
         if len(set(sizes.values())) > 1:
             listed = ", ".join(f"{key} {size}" for key, size in sizes.items())
-            raise InputError(f"keys that move together need as many values each: {listed}")
+            raise InputError(f"keys that move together need the same number of values: {listed}")
     group_of = {key: tuple(group) for group in groups for key in group}
     dimensions = dict.fromkeys(group_of.get(key, (key,)) for key in known)
     return tuple(tuple(known[key] for key in group) for group in dimensions)

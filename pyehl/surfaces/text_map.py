@@ -1,155 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Height maps as text: one x per line, tables under lines of words, lists of points.
-
-The axes of a table are its first line and column.
-"""
+"""Height maps as text: one x per line, tables under lines of words, lists of points."""
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from pyehl.errors import InputError
 from pyehl.surfaces.arrays import Found, check_pixels, unit_of
+from pyehl.surfaces.text_axes import OFF, Axes, without_axes
 from pyehl.surfaces.text_header import OWN_PERIODIC, OWN_SIZE, Header, header_of
-from pyehl.surfaces.text_table import BLANKS, BadCellError, Cells, Table, tables_of
+from pyehl.surfaces.text_table import BLANKS, Cells, Table, tables_of
 from pyehl.types import Array
 
-MIN_PLACES = 5
-# Of a step: how far places may be from equal steps or a grid, for they are rounded
-OFF = 0.02
-GROWING = 0.9
-"""Least correlation with the number of the line of what may be an axis."""
-BEYOND = 10.0
-"""Ranges of all heights that a line which is an axis covers at the least."""
-
-
-@dataclass(frozen=True, slots=True)
-class Axes:
-    """Axes that were taken off a table."""
-
-    # Along a line and from line to line, in the numbers of the file; None where it has no such
-    # axis. None as a whole where they are numbers of pixels
-    steps: tuple[float | None, float | None] | None
-    note: str
-
-    def turned(self) -> "Axes":
-        """Give the axes of a table with one x per line."""
-        return replace(self, steps=self.steps and (self.steps[1], self.steps[0]))
-
-
-def is_axis(values: Array) -> bool:
-    """Whether numbers grow, or fall, in equal steps."""
-    if values.size < MIN_PLACES or not np.isfinite(values).all():
-        return False
-    step = (values[-1] - values[0]) / (values.size - 1)
-    line = values[0] + step * np.arange(values.size)
-    return bool(step) and bool(np.abs(values - line).max() <= OFF * abs(step))
-
-
-def _is_sorted(values: Array) -> bool:
-    """Whether at least a few numbers rise, or fall, from each to the next."""
-    steps = np.diff(values)
-    return values.size >= MIN_PLACES and bool((steps > 0.0).all() or (steps < 0.0).all())
-
-
-def _is_numbering(values: Array) -> bool:
-    """Whether an axis counts pixels from 0 or 1."""
-    return values[0] in (0.0, 1.0) and bool((np.diff(values) == 1.0).all())
-
-
-def _grows(lines: Array) -> bool:
-    """Whether the first number of each line grows, or falls, far beyond the range of all others."""
-    if min(lines.shape) <= MIN_PLACES:
-        return False
-    first = lines[1:, 0]
-    if not np.isfinite(first).all() or not np.ptp(first):
-        return False
-    # a line that is there twice, or in another place, is no doubt about the others
-    if abs(float(np.corrcoef(first, np.arange(first.size))[0, 1])) < GROWING:
-        return False
-    others = lines[1:, 1:]
-    spread = float(np.fmax.reduce(others, None) - np.fmin.reduce(others, None))
-    return bool(float(np.ptp(first)) > BEYOND * spread)
-
-
-def without_axes(rows: Array, header: Sequence[str], cells: Cells) -> tuple[Array, Axes | None]:
-    """Heights of a table without its axes, and these; None where it has none.
-
-    Heights never lie on a straight line while those beside them do not: such a first line is that
-    of x, such a first column that of y. The line of x may have a word at its corner, and is then
-    the last line of the header. ValueError if such a line is there, and its steps are not equal.
-    """
-    across = along = None
-    heading = _heading(header[-1], cells, rows.shape[1]) if header else None
-    if min(rows.shape) > MIN_PLACES:
-        # an index of the lines stands before the x, y and z of a list as well
-        if is_axis(rows[1:, 0]) and not is_axis(rows[1:, 1]):
-            across = rows[:, 0]
-        if is_axis(rows[0, 1:]) and not is_axis(rows[1, 1:]):
-            along = rows[0]
-    elif rows.shape[1] == MIN_PLACES - 1 and is_axis(rows[:, 0]) and not is_axis(rows[:, 1]):
-        return rows[:, 1:], Axes(None, "the first column numbers the lines")
-    if along is None and across is not None and heading is not None and is_axis(heading):
-        along = heading
-    elif along is not None:
-        rows = rows[1:]
-        across = across[1:] if across is not None else None
-    if along is not None:
-        along = along[-(rows.shape[1] - (across is not None)) :]
-    if across is not None:
-        rows = rows[:, 1:]
-    rounded = heading is not None and _is_sorted(heading) and _is_sorted(rows[:, 0])
-    if across is None and (_grows(rows) or (rounded and not _is_sorted(rows[:, 1]))):
-        name = "column"
-    elif along is None and _grows(rows.T):
-        name = "line"
-    elif along is None and across is None:
-        return rows, None
-    else:
-        return _rising(rows, along, across)
-    raise ValueError(
-        f"the first {name} grows as an axis does, and not in equal steps: a map needs equal steps "
-        "(places with more digits), and heights alone"
-    )
-
-
-def _heading(line: str, cells: Cells, columns: int) -> Array | None:
-    """Numbers of a line whose first cell is a word, or left out; None if they are none."""
-    words = cells.split(line.lstrip("#"))
-    if len(words) not in (columns, columns - 1):
-        return None
-    words = words[len(words) - columns + 1 :]
-    try:
-        return Cells(cells.separator).numbers(cells.separator.join(words))
-    except BadCellError:
-        return None
-
-
-def _rising(rows: Array, along: Array | None, across: Array | None) -> tuple[Array, Axes]:
-    """Heights in the order of rising places, with the steps."""
-    result = [axis for axis in (along, across) if axis is not None]
-    steps: list[float | None] = []
-    for number, axis in ((1, along), (0, across)):
-        if axis is None:
-            steps.append(None)
-            continue
-        # the corner may be empty
-        step = float((axis[-1] - axis[1]) / (axis.size - 2))
-        if step < 0.0:
-            rows = np.flip(rows, number)
-        steps.append(abs(step))
-    names = " and ".join(
-        name for name, axis in (("line", along), ("column", across)) if axis is not None
-    )
-    if all(_is_numbering(axis) for axis in result):
-        return rows, Axes(None, f"numbers of pixels and no heights: the first {names}")
-    return rows, Axes((steps[0], steps[1]), f"places and no heights: the first {names}")
-
-
-MOST_COLUMNS = 8
+MAX_COLUMNS = 8
 """Of a list of points."""
 
 
@@ -161,7 +25,7 @@ def is_list(rows: Array) -> bool:
 def is_longer_list(path: Path, rows: Array) -> bool:
     """Whether rows of few numbers are the x, y and z of points, and what else is known of them."""
     lines, columns = rows.shape
-    if not (3 < columns <= MOST_COLUMNS and lines >= 4 * columns):
+    if not (3 < columns <= MAX_COLUMNS and lines >= 4 * columns):
         return False
     try:
         heights, _ = grid_of(path, rows[:, :3])
@@ -196,7 +60,7 @@ def grid_of(path: Path, points: Array) -> tuple[Array, tuple[float, float]]:
         gaps = gaps[gaps > OFF * gaps.max(initial=0.0)]
         if not gaps.size:
             raise InputError(f"{path}: all points of the list of x, y and z have the same {name}")
-        # the span knows it better than the places, which are rounded
+        # the span gives it more accurately than the places, which are rounded
         span = float(np.ptp(places))
         step = span / round(span / float(np.median(gaps)))
         at = (places - places.min()) / step
@@ -260,7 +124,7 @@ def read_text_map(path: Path, encoding: str, channel: str = "") -> Found:
         result.notes.append(f"missing points in the file: {words}")
     if table.footer:
         result.notes.append(
-            f"{len(table.footer)} lines behind the heights are no numbers and were not read: "
+            f"{len(table.footer)} lines after the heights are no numbers and were not read: "
             f"{table.footer[0].strip()[:40]!r}"
         )
     return result

@@ -14,7 +14,7 @@ LIMITED = (
 
 
 def limited(folder: Path, kind: int, size: int, *words: str) -> subprocess.CompletedProcess[str]:
-    """Run ``pyehl`` with a limit, set behind its imports: an editable package may build."""
+    """Run ``pyehl`` with a limit, set after its imports: an editable package may build."""
     return subprocess.run(
         [sys.executable, "-P", "-c", LIMITED, str(kind), str(size), *words],
         cwd=folder,

@@ -125,7 +125,7 @@ class SecondSolver:
         self.set: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
 
     def at(self, di: int, dj: int) -> sparse.csr_array:
-        """Matrix that takes values from so many nodes further; 0 from outside."""
+        """Matrix that takes values from a number of nodes further; 0 from outside."""
         i, j = np.meshgrid(np.arange(self.points), np.arange(self.rows), indexing="ij")
         to = (i + di, abs(j + dj))
         good = ((to[0] >= 0) & (to[0] < self.points) & (to[1] < self.rows)).ravel(order="F")

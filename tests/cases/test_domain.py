@@ -72,7 +72,7 @@ def test_a_key_overrides_its_border_alone():
 
 
 def test_starved_domain_says_so():
-    """At (20, 10) P = 0 on the domain of the paper takes 6 % of the film; plan and error know."""
+    """At (20, 10) P = 0 on the domain of the paper takes 6 % of the film; plan and error say so."""
     starved = solved(case_of(20.0, 10.0, 257, **PAPER, border="zero"))
     flooded = solved(case_of(20.0, 10.0, 257))
     assert flooded["H_c_extrapolated"] == pytest.approx(0.4368, rel=3e-3)

@@ -89,13 +89,13 @@ def test_what_goes_with_a_duty(options, message):
         pyehl.Case(..., {"contact": POINT["contact"]}, duty | options)
 
 
-def test_others_refuse_a_duty():
+def test_other_commands_refuse_a_duty():
     case = pyehl.Case(**POINT, duty={"time": [0.0, 1.0], "load": [40.0, 30.0]})
     with pytest.raises(pyehl.InputError, match="without &duty"):
         pyehl.predict(case, {"surface.kind": "harmonic"})
     assert any("&duty" in line for line in pyehl.film(case).summary["left_out"])
 
 
-def test_a_load_below_the_least_is_refused():
+def test_a_load_below_the_minimum_is_refused():
     with pytest.raises(pyehl.InputError, match=r"at least 182\.85, 0\.001 of that of the case"):
         run([0.0, 1.0], load=[1.0, 5e-4])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contacts of machine elements: the cases of the how-tos, and what these say of them."""
+"""Contacts of machine elements: the cases of the how-tos, and the numbers in these."""
 
 import json
 import math
@@ -24,7 +24,7 @@ NUMBER = re.compile(r"\d+\.\d+(?:E[-+]\d+)?")
 
 
 def texts(page: Path) -> list[str]:
-    """Lines of what a page states that is printed."""
+    """Lines that a page shows as printed output."""
     blocks = re.findall(r"^```text\n(.*?)^```$", page.read_text(encoding="utf-8"), re.M | re.S)
     return [line for block in blocks for line in block.splitlines()]
 
@@ -103,9 +103,9 @@ def test_gear_pair(root: Path, drive, tmp_path: Path):
     assert drive("pyehl", case, "-o", "out", *options).returncode == 0
     result = json.loads((tmp_path / "out" / "summary.json").read_text())
     for name in ("H_c", "H_min", "H_c_extrapolated", "mu_smooth"):
-        # steadied to another tolerance before time steps
+        # converged to another tolerance before time steps
         assert result[name] == pytest.approx(record[name], rel=2e-3)
-    # the block that made the flanks makes them still
+    # the block still makes the flanks
     (block,) = re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)
     (tmp_path / "cases").mkdir()
     subprocess.run([sys.executable, "-P", "-c", block], cwd=tmp_path, check=True)
@@ -123,8 +123,8 @@ def test_gear_pair(root: Path, drive, tmp_path: Path):
 
 
 @pytest.mark.slow
-def test_gear_pair_made_anew(root: Path, tmp_path: Path):
-    """Minutes: the record of the rough run."""
+def test_record_of_the_gear_pair(root: Path, tmp_path: Path):
+    """The rough run, which takes minutes."""
     page = root / "docs" / "howto" / "gear.md"
     record = json.loads(page.with_suffix(".json").read_text(encoding="utf-8"))
     words = ["run", root / "cases" / "gear_pair.nml", "-o", tmp_path / "out"]
@@ -274,7 +274,7 @@ def test_default_border_of_a_wide_contact(kappa, border):
 
 
 @pytest.mark.long
-def test_cycles_whose_residual_grows_are_taken_back():
+def test_growing_residual_restarts_with_damped_cycles():
     """A crowned roller with L = 32, kappa = 15 on a wide domain: one restart with damped cycles.
 
     Left alone these cycles end at the cycle limit.
@@ -339,5 +339,5 @@ def test_a_flow_that_thins_is_softened_at_first():
     assert 0.75 < films[1.301e6] / films[5.2e6] < 0.9
 
 
-def test_kinds_of_the_campaign_come_in_turn():
+def test_kinds_alternate():
     assert [contact.kind for contact in draw(8, 4)] == list(KINDS) * 2

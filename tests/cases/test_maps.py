@@ -31,7 +31,7 @@ POINTS = 65
 
 
 def rough(pixels: tuple[int, int], seed: int = 1, height: float = 1e-11) -> np.ndarray:
-    """Noise, so low that the contact does not feel it."""
+    """Noise, too low to change the pressure."""
     return height * np.random.default_rng(seed).standard_normal(pixels)
 
 
@@ -132,7 +132,7 @@ def test_unresolved_wave(solve, wavelength: float, velocity: float, share: float
 
 
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
-def test_a_wave_that_no_node_sees_is_refused(drive, tmp_path: Path, driver: str):
+def test_a_wave_shorter_than_two_nodes_is_refused(drive, tmp_path: Path, driver: str):
     (tmp_path / "case.nml").write_text(
         "&contact moes_m = 200.0 /\n&grid points = 65 /\n"
         "&surface kind = 'harmonic', wavelength_x = 0.1, amplitude = 1e-3 /\n"
@@ -145,7 +145,7 @@ def test_a_wave_that_no_node_sees_is_refused(drive, tmp_path: Path, driver: str)
 
 @pytest.mark.parametrize("kind", ["sharp", "gaussian"])
 def test_cut_is_that_of_python(solve, tmp_path: Path, kind: str):
-    """The solver's own cut, and a map that was cut before."""
+    """The solver's own filter, and a map that was filtered before."""
     z = rough((64, 64))
     lengths = (2.7e-4, 2.7e-4)
     cut = surfaces.filtered(Topography(z - z.mean(), lengths), 2.2e-5, 1.6e-4, kind)
@@ -217,7 +217,7 @@ def test_rows_that_are_not_numbers_are_refused(drive, tmp_path: Path, row: str, 
 
 
 def test_map_larger_than_memory_is_refused(drive, tmp_path: Path):
-    """A file with holes: 320 GB that take no room on the disk."""
+    """A sparse file: 320 GB that take no room on the disk."""
     n = 200_000
     header = f"{{'descr': '<f8', 'fortran_order': False, 'shape': ({n}, {n}), }}"
     header += " " * (117 - len(header)) + "\n"
@@ -265,7 +265,7 @@ def test_mirrored_map_is_its_tile(shape: tuple[int, int], pixel: float, cut: flo
         assert part[name] == pytest.approx(whole[name], rel=1e-12, abs=1e-12), name
 
 
-def test_symmetric_map_is_known_as_one():
+def test_symmetric_maps_are_recognised():
     """Half of the domain is enough for a mirrored map that is even about its middle column."""
     half = 1e-8 * np.random.default_rng(2).normal(size=(12, 6))
     for z, even in ((np.hstack([half, half[:, -2::-1]]), True), (np.hstack([half, half]), False)):

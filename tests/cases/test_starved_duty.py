@@ -82,7 +82,7 @@ def lost(data):
 
 
 def balance(data):
-    """The same at the end of the duty by trapezia, which know nothing of the scheme."""
+    """The same at the end of the duty by trapezia, which do not depend on the scheme."""
     time, enters, leaves, sides, content = history(
         data, "T", "oil_in", "oil_out", "oil_at_sides", "oil_content"
     )

@@ -260,7 +260,7 @@ def test_dent_over_roughness(solve, resting):
 
 
 def test_dent_on_both(solve):
-    """Two dents: the run ends when both have left, and knows the deepest film of either."""
+    """Two dents: the run ends when both have left, and reports the minimum film under each."""
     both = solve(POINT, POINTS, surfaces_of(DENT, DENT | {"amplitude": 2e-3}, slide_to_roll=0.5))
     first = solve(POINT, POINTS, surfaces_of(DENT, {}, slide_to_roll=0.5))
     second = solve(POINT, POINTS, surfaces_of({}, DENT | {"amplitude": 2e-3}, slide_to_roll=0.5))
@@ -293,7 +293,7 @@ def test_composite_statistics(solve):
 
 
 def test_amplitude_by_the_film(solve):
-    """Shares of the variance know an amplitude that is given as a share of the film."""
+    """Shares of the variance include an amplitude that is given as a share of the film."""
     si = {"contact.load": 120.0, "contact.slide_to_roll": 0.5, "time.steps": 2}
     tile = {"kind": "fractal", "pixels": 32, "rms_height": 3e-8}
     wave = {"kind": "harmonic", "wavelength": 1.0}

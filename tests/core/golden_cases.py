@@ -10,7 +10,7 @@ from pyehl.case.settings import KEYS, MACHINES
 from pyehl.errors import InputError
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
-# Keys that are written since: for the solver, and of a feature on a line
+# Keys that were added later: for the solver, and of a feature on a line
 ADDED = (
     *("alpha_origin", "inlet_law", "table_temperature", "table_pressure", "table_viscosity"),
     "spacing_y",
@@ -170,7 +170,7 @@ def outcome(text: str, options: list[str], folder: Path) -> list[str] | str:
 def without_places(text: str, folder: Path) -> str:
     """Replace the folder of the case, and the current one, from which options name files."""
     text = text.replace(str(folder), "FOLDER").replace(str(Path.cwd()), "CURRENT")
-    # a group and a key that came since
+    # a group and a key that were added later
     text = text.replace("y_start, spacing_y, file", "y_start, file")
     return text.replace("&lubricant, &inlet,", "&lubricant,").replace(
         "lubricant, inlet,", "lubricant,"

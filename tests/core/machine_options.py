@@ -48,12 +48,12 @@ def merged(*options):
     return {key: value for option in options for key, value in option.items()}
 
 
-def bearing(*options, **how):
-    return pyehl.bearing(..., merged(*options), **how)
+def bearing(*options, **execution):
+    return pyehl.bearing(..., merged(*options), **execution)
 
 
-def gear(*options, **how):
-    return pyehl.gear(..., merged(*options), **how)
+def gear(*options, **execution):
+    return pyehl.gear(..., merged(*options), **execution)
 
 
 def made(*options):

@@ -337,7 +337,7 @@ def test_work_and_time_left(tmp_path: Path, capsys):
     assert all(a.done < b.done for a, b in itertools.pairwise(running))
     assert all(work.done <= work.earliest <= work.latest for work in running)
     assert running[-1].done > summary["steps"]  # those on the coarser grid count
-    # the first step knows the earliest end; a mean that settles at once ends there
+    # the earliest end is known after the first step; a mean that settles at once ends there
     assert running[0].earliest == pytest.approx(running[-1].done, rel=0.03)
     pyehl.solve(case, "time.steps=40", "time.estimate_error=.false.", check=False, progress=True)
     shown = capsys.readouterr().err

@@ -100,7 +100,7 @@ def test_random_keys(seed: int, count: int):
     for text in cases(seed, count):
         ehl, pyehl = by_ehl(text), by_pyehl(text)
         assert bool(ehl) == bool(pyehl) or COMPLETED in ehl, f"{text}\n{ehl}\n{pyehl}"
-        # pyehl knows before it calls the solver
+        # pyehl finds it before it calls the solver
         assert "resolved case" not in pyehl, f"{text}\n{pyehl}"
         refused += bool(ehl)
         taken += not ehl

@@ -24,7 +24,7 @@ SMALL = (
 
 @pytest.fixture
 def number() -> Iterator[int]:
-    """A solver as the library knows it."""
+    """A solver as the library has it."""
     text = Case.from_text(SMALL).text.encode()
     opened, status, message = ehl.open_case(text, b"case", 0, NO_HEIGHTS, 0, NO_HEIGHTS)
     errors.check(status, message)
@@ -167,21 +167,21 @@ def test_slots_run_out_and_are_freed():
 
 def test_solvers_in_threads_do_not_disturb_each_other():
     texts = [SMALL, SMALL.replace("100.0", "50.0")] * 8
-    answers: list[float | None] = [None] * len(texts)
+    results: list[float | None] = [None] * len(texts)
 
     def work(k: int) -> None:
         with Solver(Case.from_text(texts[k])) as solver:
             solver.run()
-            answers[k] = solver.summary["H_c"]
+            results[k] = solver.summary["H_c"]
 
     threads = [threading.Thread(target=work, args=(k,)) for k in range(len(texts))]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert len(set(answers[::2])) == len(set(answers[1::2])) == 1
-    assert None not in answers
-    assert answers[0] != answers[1]
+    assert len(set(results[::2])) == len(set(results[1::2])) == 1
+    assert None not in results
+    assert results[0] != results[1]
 
 
 def test_text_beyond_ascii_arrives():

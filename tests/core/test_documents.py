@@ -129,7 +129,7 @@ def test_commands_work(
             printed = "".join(execute(part, folder, drivers, command=command) for part in todo)
         elif language == "console" and name in SHOWN:
             line, _, shown = block.removeprefix("$ ").partition("\n")
-            # a status without a result is an answer too
+            # a status without a result is shown, too
             assert_shown(shown, execute(line, folder, drivers, (0, 1), command))
         elif language == "text" and name in SHOWN:
             assert_shown(block, printed)

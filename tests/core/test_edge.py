@@ -49,7 +49,7 @@ COMMANDS: tuple[tuple[tuple[str, ...], str], ...] = (
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with what `COMMANDS` read; files with holes take no room on the disk."""
+    """A folder with what `COMMANDS` read; sparse files take no room on the disk."""
     folder = tmp_path_factory.mktemp("edge")
     os.mkfifo(folder / "pipe")
     (folder / "binary.nml").write_bytes(bytes(range(256)))

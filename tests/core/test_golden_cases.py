@@ -47,6 +47,6 @@ def reference(name: str) -> str:
 
 
 def differences(lines: list[str], others: list[str]) -> list[str]:
-    """Lines that were added, and behind a minus sign those that are gone."""
+    """Lines that were added, and after a minus sign those that are gone."""
     added = [line for line in lines if line not in others]
     return added + [f"-{line}" for line in others if line not in lines]

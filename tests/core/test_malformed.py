@@ -225,7 +225,7 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("repeat count", "&grid points = §2*65 /", [], ["grid.points", "one plain number"]),
     ("unit", "&contact load = 600 §N /", [], ["unit", "contact.load", "unit N, not written"]),
     ("unit with a slash", "&contact mean_velocity = 0.84 §m/s /", [], ["unit", "mean_velocity"]),
-    ("unit without a blank", "&contact load = 600§N /", [], ["contact.load", "behind the number"]),
+    ("unit without a blank", "&contact load = 600§N /", [], ["contact.load", "after the number"]),
     ("unit before a key", "&contact load = 600 §kN, radius = 1 /", [], ["unit", "contact.load"]),
     ("unit as a string", "&contact load = 600 §'N' /", [], ["contact.load"]),
     ("nan", "&contact load = §nan /", [], ["contact.load", "finite"]),
@@ -305,7 +305,7 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("no slash before a group", "&grid\n points = 65\n§&solver threads = 2 /", [], ["&grid", "'/'"]),
     ("old end of a group", "&grid points = 65 §&end", [], ["&grid", "'/'"]),
     ("no group", "§points = 65", [], ["outside of a group", "&grid"]),
-    ("text behind a group", "&grid /\n§x", [], ["outside of a group"]),
+    ("text after a group", "&grid /\n§x", [], ["outside of a group"]),
     ("key twice", "&grid points = 65\n §points = 129 /", [], ["grid.points", "twice"]),
     ("group twice", "&grid points = 65 /\n§&grid x_inlet = -3 /", [], ["&grid", "twice"]),
     ("no value", "&grid points = §/", [], ["no value", "grid.points"]),
@@ -408,7 +408,7 @@ def test_program_refuses_it(drive, tmp_path: Path, name, marked, options, parts)
 
 
 def words_of(options: list[str]) -> list[str]:
-    """Command line behind the name of the driver."""
+    """Command line after the name of the driver."""
     return ["case.nml", "-o", "out", *(word for option in options for word in ("--set", option))]
 
 
@@ -424,7 +424,7 @@ def caret_column(message: list[str]) -> int:
 
 
 def marked_column(text: str, where: str, message: list[str]) -> int:
-    """Where the caret must stand behind the bar; options have no column, any place will do."""
+    """Where the caret must stand after the bar; options have no column, any place will do."""
     if not where:
         return caret_column(message)
     return int(where.split(":")[2])

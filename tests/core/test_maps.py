@@ -56,7 +56,7 @@ def test_run_of_a_scan(scan: Path, tmp_path: Path, capsys):
     assert cli.main(["check", case]) == 0
     plan = capsys.readouterr().out
     assert "outliers 50 (given), 1 points" in plan
-    # three steps are too few to know the friction
+    # three steps are too few for the mean friction
     assert run(case, tmp_path / "out") == 1
     made = json.loads((tmp_path / "out" / "summary.json").read_text())["surface_preparation"]
     assert [s["key"].partition(".")[2] for s in made["steps"]] == [
@@ -67,7 +67,7 @@ def test_run_of_a_scan(scan: Path, tmp_path: Path, capsys):
     kept = Case(tmp_path / "out" / "case.nml").resolve()["surface"]
     assert kept["tile_x"] == pytest.approx(2 * LENGTH, rel=1e-6)
     assert kept["length_x"] == 0.0
-    # the case of a result solves itself again
+    # the case of a result gives the same result
     assert run(tmp_path / "out" / "case.nml", tmp_path / "again") == 1
     assert np.array_equal(
         np.load(tmp_path / "out" / "P.npy"), np.load(tmp_path / "again" / "P.npy")
@@ -130,7 +130,7 @@ def test_program_refuses_exports(tmp_path: Path, drive):
 
 
 @pytest.mark.parametrize(("numbers", "order"), [("f8", "C"), ("f4", "C"), ("f4", "F")])
-def test_neutral_arrays_have_the_same_bits(tmp_path: Path, drive, numbers: str, order):
+def test_arrays_as_they_are_have_the_same_bits(tmp_path: Path, drive, numbers: str, order):
     np.save(tmp_path / "map.npy", np.array(heights(), dtype=numbers, order=order))
     size = f"length_x = {LENGTH} length_y = {LENGTH}"
     case = write_case(tmp_path / "case.nml", "map.npy", size)
@@ -149,7 +149,7 @@ def test_neutral_arrays_have_the_same_bits(tmp_path: Path, drive, numbers: str, 
     assert same == pytest.approx(one, abs=1e-12)
 
 
-def test_prepared_march_is_resumed_to_the_same_bits(scan: Path, tmp_path: Path):
+def test_run_with_a_prepared_map_is_resumed_to_the_same_bits(scan: Path, tmp_path: Path):
     """With its size, and without the file of the instrument."""
     case = write_case(tmp_path / "case.nml", "scan.x3p", "outliers = 50.0")
     longer = ("--set", "time.steps=5")
@@ -215,7 +215,7 @@ def test_surface_refuses(tmp_path: Path, capsys):
     assert ".npy, .txt, .nc" in capsys.readouterr().err
 
 
-def test_large_maps_tell_what_is_done(tmp_path: Path, capsys, monkeypatch):
+def test_progress_of_large_maps(tmp_path: Path, capsys, monkeypatch):
     np.save(tmp_path / "map.npy", heights())
     words = ["surface", str(tmp_path / "map.npy"), "--set", f"surface.length_x={LENGTH}"]
     words += ["--set", f"surface.length_y={LENGTH}", "--set", "surface.detrend='tilt'"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run without an answer states why, where it ended and what to do, in one line."""
+"""A run without a result states why, where it ended and what to do, in one line."""
 
 import re
 from typing import Any
@@ -18,7 +18,7 @@ IN_METRES = "&contact load = 20.0 /\n&grid points = 65 /\n&surface kind = 'bump'
 
 
 def end(text: str, *options: str, stop: int | None = None) -> dict[str, Any]:
-    """Summary of a run that ends without an answer, or is stopped after so many advances."""
+    """Summary of a run that ends without a result, or is stopped after a number of advances."""
     with Solver(Case.from_text(text, options)) as solver:
         if stop is None:
             assert not solver.run()
@@ -156,7 +156,7 @@ def test_roller_names_a_profile_with_a_solution(
         assert solver.run()
 
 
-def test_an_answer_has_no_message():
+def test_a_result_has_no_message():
     with Solver(Case.from_text(WAVE, ["surface.kind=smooth"])) as solver:
         assert solver.run()
         assert "message" not in solver.summary

@@ -329,7 +329,7 @@ def test_table_among_the_results_is_kept(call: Call, tmp_path: Path):
 
 
 def test_changed_map_is_foreign(call: Call, tmp_path: Path):
-    """The case beside a map knows its bytes."""
+    """The case beside a map has its checksum."""
     Path("rough.nml").write_text(ROUGH)
     words = ["surface", "rough.nml", "-o", "a.npy", "--no-plots"]
     assert call(*words).returncode == 0

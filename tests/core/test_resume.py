@@ -354,7 +354,7 @@ def test_failed_step_keeps_the_last_good_state(drive, tmp_path: Path, driver: st
     assert summary["status"] == "negative film"
     steps = summary["steps"]
     assert steps > 10
-    # What is there is what a run of so many steps leaves
+    # What is there is what a run of this many steps leaves
     good = drive(driver, "case.nml", "-o", "good", "--set", f"time.steps={steps}")
     assert good.returncode == 1
     assert json.loads((tmp_path / "good" / "summary.json").read_text())["status"] == "not settled"
@@ -438,7 +438,7 @@ def test_killed_at_random_instants(drivers, unbroken, tmp_path: Path, driver: st
         words += ["--set", f"solver.threads={chance.choice([1, 2])}"]
         with start([*drivers[driver], *words, *OFTEN], tmp_path) as process:
             if kills < 6:
-                # after so many states, and a little later: between two of them, or inside one
+                # after this many states, and a little later: between two of them, or inside one
                 states, last = chance.randrange(20), newest(folder)
                 while states > 0 and process.poll() is None:
                     time.sleep(0.0005)

@@ -57,7 +57,7 @@ def ended(solver: pyehl.Solver) -> dict[str, Any]:
 
 
 def killed_and_resumed(case: pyehl.Case, folder: Path, advances: int) -> dict[str, Any] | None:
-    """Summary of a run that was killed after so many advances; None where it left no state."""
+    """Summary of a run that was killed after a number of advances; None where it left no state."""
     with pyehl.Solver(case) as solver:
         solver.checkpoint(folder)
         for k in range(advances):

@@ -353,7 +353,7 @@ def test_film_over_both():
 
 
 def test_pictures(heights, tmp_path: Path, monkeypatch):
-    """The deformed roughness is that of both; eq. 16, which knows one, is left out."""
+    """The deformed roughness is that of both; eq. 16, which is for one, is left out."""
     monkeypatch.chdir(tmp_path)
     text = CONTACT + WAVE.format("surface", "") + WAVE.format("second_surface", "")
     data = pyehl.solve(Case.from_text(text), {"time.estimate_error": False}, output="out")

@@ -148,7 +148,7 @@ def test_failed_write_leaves_the_old_result(folder, settings, monkeypatch):
 
 
 def test_a_picture_that_fails_is_a_warning(settings, tmp_path, monkeypatch, caplog):
-    """The answer is written before there are pictures."""
+    """The result is written before there are pictures."""
     place = destination(tmp_path / "out")
     result = predict(settings)
     write(result, place)

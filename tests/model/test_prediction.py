@@ -12,7 +12,8 @@ import scipy.interpolate
 import scipy.ndimage
 
 import pyehl
-from pyehl.contact.smooth import hertz_contact, read_contact, solve_contact, zone_of
+from pyehl.contact.result_folder import read_contact
+from pyehl.contact.smooth import hertz_contact, solve_contact, zone_of
 from pyehl.prediction import model, moving_tile, response, rough_contact
 from pyehl.prediction.breakdown import ways_into_range
 from pyehl.prediction.friction import outcome, run

@@ -85,7 +85,7 @@ def test_circle_is_the_disc():
 
 
 @pytest.mark.parametrize("kappa", [0.4, 3.0])
-def test_polynomials_meet_the_edge(kappa):
+def test_polynomials_fit_the_edge(kappa):
     shape = ellipse({0.4: NARROW, 3.0: 0.18877599093046807}[kappa])
     edge = EllipseEdge(shape)
     rng = np.random.default_rng(4)
@@ -142,7 +142,7 @@ def rows_of(path: Path) -> list[dict[str, float]]:
 
 
 def test_waves_as_measured(root: Path):
-    """The circle with the same inlet is met as well as circles are; others are not."""
+    """The response of the circle with the same inlet fits as well as on circles; others do not."""
     rows = rows_of(root / "docs" / "evidence" / "ellipse" / "response.csv")
     groups: dict[tuple[float, ...], list[dict[str, float]]] = {}
     for row in rows:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Maps with tilt, curvature, holes, spikes and jumps whose right answer is known."""
+"""Maps with known tilt, curvature, missing points, spikes and jumps."""
 
 import json
 

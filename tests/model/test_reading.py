@@ -177,8 +177,8 @@ def test_lists_of_points(tmp_path, header):
     points = [(3e-6 + i * pixel[0], j * pixel[1], z[i, j]) for i in range(nx) for j in range(ny)]
     np.random.default_rng(1).shuffle(points)
     gone = points.pop()
-    how = {"fmt": "%.7g", "header": header, "comments": "", "delimiter": "," if header else " "}
-    np.savetxt(tmp_path / "list.xyz.txt", 1e6 * np.array(points), **how)
+    options = {"fmt": "%.7g", "header": header, "comments": "", "delimiter": "," if header else " "}
+    np.savetxt(tmp_path / "list.xyz.txt", 1e6 * np.array(points), **options)
     scan = read_scan(tmp_path / "list.xyz.txt", height_unit="um")
     assert (scan.length_x, scan.length_y) == pytest.approx(SIZE, rel=1e-5)
     missing = np.argwhere(np.isnan(scan.heights))
@@ -218,8 +218,8 @@ def test_unreadable_instrument_file(tmp_path):
 
 
 @pytest.mark.parametrize("data", [b"II*\0" + bytes(range(250)) * 2, b"\0\0\0" + b"1 2 3\n" * 30])
-def test_readers_are_not_heard(tmp_path, capfd, recwarn, data):
-    """What they log and warn of a binary file with the name of a text."""
+def test_readers_print_nothing(tmp_path, capfd, recwarn, data):
+    """Nor log or warn, of a binary file with the name of a text."""
     (tmp_path / "map.csv").write_bytes(data)
     with pytest.raises(InputError, match=r"map\.csv: .*map") as refused:
         read_scan(tmp_path / "map.csv")
@@ -243,7 +243,7 @@ def test_missing_package_says_how_to_install_it(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("name", ["map.npy", "map.txt", "map.x3p", "map"])
 def test_map_larger_than_the_memory(tmp_path, name):
-    """Files with holes, which take no room on the disk: nothing of them is read."""
+    """Sparse files, which take no room on the disk: nothing of them is read."""
     n = 400_000
     with (tmp_path / name).open("wb") as stream:
         if name == "map.npy":
@@ -402,7 +402,7 @@ def test_files_without_size_and_unit(tmp_path, suffix):
 
 
 def test_profiles_are_refused(tmp_path):
-    """Lines are no areas, whatever they are in."""
+    """A profile is no area, in any format."""
     z = slope_map()[:, 0]
     UniformLineScan(1e6 * z, 30.0, unit="µm").to_netcdf(str(tmp_path / "line.nc"))
     with pytest.raises(ValueError, match="a profile along a line; a contact needs the map"):

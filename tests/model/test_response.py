@@ -107,7 +107,7 @@ def test_transport_of_ridges_in_a_uniform_contact_is_the_closed_form():
 
 
 @pytest.mark.parametrize("ratio", [0.8, 1.0, 1.1])
-def test_free_wave_in_a_uniform_contact_goes_as_the_linearised_equation(ratio: float):
+def test_free_wave_in_a_uniform_contact_obeys_the_linearised_equation(ratio: float):
     """T = exp(r X) in the equation of the module's head: a polynomial in r."""
     qx, qy, e, held = np.array([9.0, 25.0]), np.array([4.0, 0.0]), 2e-5, 0.03 * 0.05
     parts = transport(uniform(conductance=e), qx, qy, ratio, STATIONS)

@@ -93,7 +93,7 @@ def test_another_word_is_refused(tmp_path: Path):
     with pytest.raises(InputError, match=r"map\.txt:10:1: 'measured again' is no number"):
         read_scan(write(tmp_path / "map.txt", [*GWYDDION, *table]))
     note = check(write(tmp_path / "map.txt", [*GWYDDION, *lines(), "end of file"]))
-    assert "1 lines behind the heights are no numbers and were not read: 'end of file'" in note
+    assert "1 lines after the heights are no numbers and were not read: 'end of file'" in note
 
 
 @pytest.mark.parametrize(
@@ -117,12 +117,12 @@ def test_empty_cells_move_no_columns(tmp_path: Path):
     """One a line, and as many as there are in the others; at the end of lines that are closed."""
     header = ["Width (um);30", "Height (um);21", "Unit;um"]
     table = [line.split(";") for line in lines(";")]
-    holes = [(i, j) for j in range(NY) for i in (j,)]
-    for i, j in holes:
+    missing = [(i, j) for j in range(NY) for i in (j,)]
+    for i, j in missing:
         table[j][i] = ""
     rows = [";".join(row) for row in table]
-    check(write(tmp_path / "map.csv", [*header, *rows]), holes)
-    check(write(tmp_path / "map.csv", [*header, *(row + ";" for row in rows)]), holes)
+    check(write(tmp_path / "map.csv", [*header, *rows]), missing)
+    check(write(tmp_path / "map.csv", [*header, *(row + ";" for row in rows)]), missing)
     check(write(tmp_path / "map.csv", [*header, *lines(";", "", decimal=",")]), MISSING)
     rows[3] = rows[3].rpartition(";")[0]
     with pytest.raises(InputError, match=r"map\.csv:7:\d+: 19 heights, but 20 in the lines above"):
@@ -301,7 +301,7 @@ def test_numbers_of_pixels_are_no_lengths(tmp_path: Path):
 
 
 def test_further_columns_of_a_list(tmp_path: Path):
-    """An index before, a quality behind: no heights."""
+    """An index before, a quality after: no heights."""
     path = write(tmp_path / "list.csv", ["n;x;y;z", *(f"{n};{p}" for n, p in enumerate(points()))])
     assert "the first column numbers the lines" in check(path, height_unit="um")
     path = write(tmp_path / "list.csv", [f"{p};{n % 7 / 9}" for n, p in enumerate(points())])
@@ -309,7 +309,7 @@ def test_further_columns_of_a_list(tmp_path: Path):
 
 
 def with_axes(corner: str | None, down: bool = False) -> list[str]:
-    """Table under a line of x, behind a column of y."""
+    """Table under a line of x, after a column of y."""
     x = [f"{STEP * i:.3f}" for i in range(NX)]
     y = [f"{STEP * j:.3f}" for j in range(NY)]
     table = [";".join([place, line]) for place, line in zip(y, lines(";"), strict=True)]
@@ -409,7 +409,7 @@ def test_zygo_lists(tmp_path: Path, suffix: str):
 
 @pytest.mark.parametrize("number", [1, 2])
 def test_zygo_phases(tmp_path: Path, number: int):
-    """Counts of phase in ten columns, behind intensities or none; 32768 counts in a wave."""
+    """Counts of phase in ten columns, after intensities or without them; 32768 counts in a wave."""
     count = 0.5 * 5.7e-07 / 32768
     phases = np.rint(1e-6 * Z / count).astype(int)
     for place in MISSING:

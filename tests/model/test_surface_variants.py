@@ -21,7 +21,7 @@ from SurfaceTopography import Topography
 NX, NY, STEP = 12, 9, 1.5e-6
 SIZE = (NX * STEP, NY * STEP)
 Z = 5e-8 * np.random.default_rng(1).normal(size=(NX, NY))
-HOLES = np.where(np.random.default_rng(2).uniform(size=Z.shape) < 0.08, np.nan, Z)
+GAPPY = np.where(np.random.default_rng(2).uniform(size=Z.shape) < 0.08, np.nan, Z)
 
 
 def same(path: Path, expected: np.ndarray = Z, atol: float = 1e-15, **keys: object) -> str:
@@ -56,17 +56,17 @@ def edited(members: dict[str, bytes], pattern: str, new: str) -> dict[str, bytes
 
 @pytest.mark.parametrize("revision", ["ISO5436 – 2000", "ISO5436-2000", "ISO5436 — 2000 "])
 def test_x3p_with_another_dash(tmp_path: Path, revision: str):
-    members = edited(x3p_members(HOLES), "ISO5436 - 2000", revision)
-    same(pack(tmp_path / "scan.x3p", members), HOLES)
+    members = edited(x3p_members(GAPPY), "ISO5436 - 2000", revision)
+    same(pack(tmp_path / "scan.x3p", members), GAPPY)
 
 
 @pytest.mark.parametrize("folder", ["scan/", "a/b/"])
 def test_x3p_in_a_folder(tmp_path: Path, folder: str):
-    members = {folder + name: data for name, data in x3p_members(HOLES).items()}
-    same(pack(tmp_path / "scan.x3p", {folder: b"", **members}), HOLES)
+    members = {folder + name: data for name, data in x3p_members(GAPPY).items()}
+    same(pack(tmp_path / "scan.x3p", {folder: b"", **members}), GAPPY)
 
 
-def test_x3p_with_places_of_windows(tmp_path: Path):
+def test_x3p_with_paths_of_windows(tmp_path: Path):
     members = edited(x3p_members(Z), "bindata/data.bin", r"bindata\\data.bin")
     same(pack(tmp_path / "scan.x3p", members))
 
@@ -76,14 +76,14 @@ def test_x3p_with_heights_in_the_xml(tmp_path: Path, form: str):
     """Of each point z, or x;y;z; nothing where it is missing."""
     data = "".join(
         "<Datum/>"
-        if np.isnan(HOLES[i, j])
-        else f"<Datum>{form.format(*[repr(float(HOLES[i, j]))] if form == '{}' else (i, j, repr(float(HOLES[i, j]))))}</Datum>"  # noqa: E501
+        if np.isnan(GAPPY[i, j])
+        else f"<Datum>{form.format(*[repr(float(GAPPY[i, j]))] if form == '{}' else (i, j, repr(float(GAPPY[i, j]))))}</Datum>"  # noqa: E501
         for j in range(NY)
         for i in range(NX)
     )
     members = edited(x3p_members(Z), "<DataLink>.*</DataLink>", f"<DataList>{data}</DataList>")
     del members["bindata/data.bin"]
-    same(pack(tmp_path / "scan.x3p", members), HOLES)
+    same(pack(tmp_path / "scan.x3p", members), GAPPY)
     short = edited(members, "<Datum/>", "")
     with pytest.raises(InputError, match=r"heights in the XML, but its matrix has 108 points"):
         read_scan(pack(tmp_path / "scan.x3p", short))
@@ -110,7 +110,7 @@ def test_the_reason_of_a_reader(tmp_path: Path, pattern: str, new: str, reason: 
 def write_tmd(path: Path, comment: bytes) -> Path:
     header = b"Binary TrueMap Data File v2.0\r\n\0" + comment
     header += struct.pack("<IIffff", NX, NY, 1e3 * SIZE[0], 1e3 * SIZE[1], 0.0, 0.0)
-    path.write_bytes(header + (1e3 * HOLES).T.astype("<f4").tobytes())
+    path.write_bytes(header + (1e3 * GAPPY).T.astype("<f4").tobytes())
     return path
 
 
@@ -119,19 +119,19 @@ def write_tmd(path: Path, comment: bytes) -> Path:
     [b"Created by TrueMap v6\r\n\0", b"\0", b"GelSight, a longer comment than usual\0", b""],
 )
 def test_comments_of_tmd(tmp_path: Path, comment: bytes):
-    same(write_tmd(tmp_path / "scan.tmd", comment), HOLES, 1e-14)
+    same(write_tmd(tmp_path / "scan.tmd", comment), GAPPY, 1e-14)
 
 
 def test_missing_points_of_nms(tmp_path: Path):
     """The largest number of two bytes is no height."""
     low, high = -0.2, 0.2
     raw = np.rint((1e6 * Z - low) / (high - low) * (2**16 - 2))
-    raw[np.isnan(HOLES)] = 2**16 - 1
+    raw[np.isnan(GAPPY)] = 2**16 - 1
     data = bytearray(3468)
     struct.pack_into("<dd", data, 16, low, high)
     struct.pack_into("<IIdd", data, 1368, NX, NY, 1e3 * STEP, 1e3 * STEP)
     (tmp_path / "scan.nms").write_bytes(bytes(data) + raw.T.astype("<u2").tobytes())
-    same(tmp_path / "scan.nms", HOLES, 1e-11)
+    same(tmp_path / "scan.nms", GAPPY, 1e-11)
     # without its name it could be anything
     (tmp_path / "scan.bin").write_bytes(bytes(data) + raw.T.astype("<u2").tobytes())
     with pytest.raises(InputError, match="of no format"):
@@ -144,18 +144,20 @@ def write_gwy(path: Path, *units: str) -> Path:
     def item(name: str, kind: str, data: bytes) -> bytes:
         return name.encode() + b"\0" + kind.encode() + data
 
-    def thing(name: str, items: bytes) -> bytes:
+    def gwy_object(name: str, items: bytes) -> bytes:
         return name.encode() + b"\0" + struct.pack("<I", len(items)) + items
 
     field = item("xres", "i", struct.pack("<i", NX)) + item("yres", "i", struct.pack("<i", NY))
     field += item("xreal", "d", struct.pack("<d", SIZE[0]))
     field += item("yreal", "d", struct.pack("<d", SIZE[1]))
     for name, unit in zip(("si_unit_xy", "si_unit_z"), units, strict=False):
-        field += item(name, "o", thing("GwySIUnit", item("unitstr", "s", unit.encode() + b"\0")))
+        field += item(
+            name, "o", gwy_object("GwySIUnit", item("unitstr", "s", unit.encode() + b"\0"))
+        )
     field += item("data", "D", struct.pack("<I", Z.size) + Z.T.astype("<f8").tobytes())
-    items = item("/0/data", "o", thing("GwyDataField", field))
+    items = item("/0/data", "o", gwy_object("GwyDataField", field))
     items += item("/0/data/title", "s", b"Topography\0")
-    path.write_bytes(b"GWYP" + thing("GwyContainer", items))
+    path.write_bytes(b"GWYP" + gwy_object("GwyContainer", items))
     return path
 
 
@@ -197,11 +199,11 @@ CheckType = 0
 @pytest.mark.parametrize("suffix", ["sdf", "txt", "dat"])
 def test_texts_of_a_known_format(tmp_path: Path, suffix: str):
     """SDF is read as such, whatever its name is; what its header states wrong is refused."""
-    rows = "\n".join(" ".join("BAD" if np.isnan(v) else f"{1e6 * v:.12f}" for v in HOLES[:, j])
+    rows = "\n".join(" ".join("BAD" if np.isnan(v) else f"{1e6 * v:.12f}" for v in GAPPY[:, j])
                      for j in range(NY))  # fmt: skip
     path = tmp_path / f"scan.{suffix}"
     path.write_text(SDF.format(nx=NX, ny=NY, step="1.5E-6", rows=rows))
-    same(path, HOLES)
+    same(path, GAPPY)
     path.write_text(SDF.format(nx=65536, ny=65537, step="1.5E-6", rows=rows))
     with pytest.raises(InputError, match="as ISO 25178-71 SDF: End of stream after reading 10"):
         read_scan(path)
@@ -234,10 +236,10 @@ def test_arrays_that_are_no_heights(tmp_path: Path, array: np.ndarray, kind: str
 def test_marks_in_arrays(tmp_path: Path, dtype: str, mark: float):
     """Missing points of whole numbers; those of an array with an offset are heights."""
     raw = np.rint(1e9 * Z).astype(float) + (300.0 if dtype == "u2" else 0.0)
-    raw[np.isnan(HOLES)] = mark
+    raw[np.isnan(GAPPY)] = mark
     np.save(tmp_path / "scan.npy", raw.astype(dtype))
     scan = read_scan(tmp_path / "scan.npy", *SIZE, height_unit="nm")
-    assert np.array_equal(np.isnan(scan.heights), np.isnan(HOLES))
+    assert np.array_equal(np.isnan(scan.heights), np.isnan(GAPPY))
     assert "missing points" in scan.note
     np.save(tmp_path / "scan.npy", (np.rint(1e9 * Z) + 32750.0).astype("u2"))
     scan = read_scan(tmp_path / "scan.npy", *SIZE, height_unit="nm")
@@ -270,14 +272,14 @@ def test_readers_change_nothing_of_the_process(tmp_path: Path, capfd):
 GROUP = {"kind": "map", "length_x": SIZE[0], "length_y": SIZE[1]}
 
 
-def test_masked_arrays_keep_their_holes():
+def test_missing_points_of_masked_arrays():
     """What is under a mask is no height: the points are interpolated, as those of a file are."""
-    mask = np.isnan(HOLES)
+    mask = np.isnan(GAPPY)
     spiky = np.ma.masked_array(np.where(mask, 1e-3, Z), mask)
     tile = in_memory(spiky, GROUP)
     assert np.abs(tile.heights).max() < 4 * Z.std()
     assert f"{mask.sum()} missing points interpolated" in tile.origin
-    other = in_memory(HOLES, GROUP)
+    other = in_memory(GAPPY, GROUP)
     assert other.heights == pytest.approx(tile.heights, abs=1e-20)
     # those that are there, about their mean, are as they were
     shift = Z[~mask] - tile.heights[~mask]

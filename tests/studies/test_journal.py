@@ -37,7 +37,7 @@ def test_rows_come_back(tmp_path: Path):
 
 
 def test_killed_anywhere_it_has_all_rows_before(tmp_path: Path):
-    """A kill leaves some first part of what was to be written behind the last transaction."""
+    """A kill leaves some first part of what was to be written after the last transaction."""
     whole = tmp_path / "whole"
     with Journal(whole, STUDY) as journal:
         sizes = []

@@ -151,12 +151,12 @@ def test_high_loads_take_a_finer_grid():
         settings = pyehl.Case.from_text("", [f"contact.moes_m={moes_m}"]).resolve()
         point = OperatingPoint.from_settings(settings)
         formula = central_film(point, Lubricant.from_settings(settings)) / point.film_scale
-        # the formula is good to a per cent; without extrapolation the film is 10 % low
+        # the formula is accurate to 1 %; without extrapolation the film is 10 % low
         assert contact.central_film == pytest.approx(formula, rel=0.015)
     assert high.central_film_error < 0.05 * high.central_film
 
 
 @pytest.mark.long
-def test_a_load_beyond_all_grids_is_said():
+def test_a_load_beyond_all_grids_is_reported():
     with pytest.raises(pyehl.EhlError, match=r"on 1025 nodes along X: .*; a lighter load"):
         smooth_contact(60000.0)

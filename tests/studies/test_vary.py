@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a study varies: texts behind --vary, study files, cases in the order of the table."""
+"""What a study varies: texts after --vary, study files, cases in the order of the table."""
 
 from pathlib import Path
 
@@ -127,7 +127,7 @@ def test_keys_that_move_together():
     [
         (study, "nothing is varied"),
         (lambda: study("a.x=1:2", "a.x=3"), "varied twice"),
-        (lambda: study("a.x=1,2,1"), "a.x: the value 1 is there twice"),
+        (lambda: study("a.x=1,2,1"), "a.x: the value 1 is given twice"),
         (lambda: study("a.x=1,2,1", "a.y=3,4,3", zipped=True), "a.x, a.y: the value 1, 3 is"),
         (lambda: study("a.x=1:2", "a.y=1:3", zipped=True), "a.x 2, a.y 3"),
         (lambda: study("a.x=1:2", zipped=[["a.xx"]]), "did you mean 'a.x'"),
@@ -188,7 +188,7 @@ def test_study_files_that_are_refused(tmp_path: Path, text: str, states: str):
 
 
 def test_more_values_than_a_study_can_have_are_not_collected():
-    """A range of so many takes no memory, a list of them would."""
+    """A range of this many takes no memory, a list of them would."""
     taken = iter(range(10**9))
     with pytest.raises(InputError, match="more than 1000000 values"):
         axis("surface.seed", taken)

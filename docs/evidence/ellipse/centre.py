@@ -55,9 +55,9 @@ def _edge(shape: Ellipse, kx: Array, ky: Array) -> Complex:
     result = EllipseEdge(shape)
     origin = np.zeros(1)
     q = np.hypot(kx, ky)
-    feels = (q > 1e-9) & (q < result.largest)
+    depends = (q > 1e-9) & (q < result.largest)
     changed = np.zeros(q.shape, dtype=complex)
-    if feels.any():
-        there = result.correction(kx[feels], ky[feels])
-        changed[feels] = (result.functions(origin, origin).T @ there)[0]
+    if depends.any():
+        there = result.correction(kx[depends], ky[depends])
+        changed[depends] = (result.functions(origin, origin).T @ there)[0]
     return changed

@@ -155,10 +155,10 @@ def draw(table: list[dict[str, Any]]) -> None:
         np.array([r[name] for r in table], dtype=float)
         for name in ("mu_ratio", "mu_ratio_error", "predicted_before", "model_error", "ellipticity")
     )
-    how = {"fmt": "o", "ecolor": GREY, "elinewidth": 0.8}
+    style = {"fmt": "o", "ecolor": GREY, "elinewidth": 0.8}
     line = np.array([1.0, 2.6])
     axes[0].plot(line, line, color=GREY, linewidth=0.8)
-    axes[0].errorbar(ratio, before, xerr=error, yerr=model, **how)
+    axes[0].errorbar(ratio, before, xerr=error, yerr=model, **style)
     axes[0].set(
         xlim=line,
         ylim=line,
@@ -170,7 +170,7 @@ def draw(table: list[dict[str, Any]]) -> None:
     )
     axes[1].axhline(0.0, color=GREY, linewidth=0.8)
     off = before - ratio
-    axes[1].errorbar(kappa, off, yerr=error, **how)
+    axes[1].errorbar(kappa, off, yerr=error, **style)
     axes[1].set(
         xscale="log",
         xlabel=r"ellipticity $\kappa$: semi-axis across the motion over $a$",

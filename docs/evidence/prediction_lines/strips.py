@@ -197,11 +197,11 @@ def main(arguments: list[str]) -> None:
                 # another process may have added rows meanwhile
                 write(HERE / "simulated.csv", read(HERE / "simulated.csv") | {name: row})
     elif what == "compare":
-        said, result = read(HERE / "committed.csv"), read(HERE / "simulated.csv")
+        stated, result = read(HERE / "committed.csv"), read(HERE / "simulated.csv")
         for name in PLAN:
-            if name in said and name in result:
-                p, s = (float(rows[name]["mu_ratio"] or "nan") for rows in (said, result))
-                error = float(said[name]["mu_ratio_model_error"] or "nan")
+            if name in stated and name in result:
+                p, s = (float(rows[name]["mu_ratio"] or "nan") for rows in (stated, result))
+                error = float(stated[name]["mu_ratio_model_error"] or "nan")
                 grid = float(result[name]["mu_ratio_error_grid"] or "nan")
                 held = "covered" if abs(p - s) <= error else "not covered"
                 print(

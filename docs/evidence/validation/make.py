@@ -199,9 +199,9 @@ def draw(rows: list[dict[str, str]]) -> None:
                 ]
                 # the formulas of H_min overlap: one has filled markers, the others open ones
                 face = colour if name == names[0] else "none"
-                how = {"marker": marker, "color": colour, "lw": 1.0, "mfc": face, "ms": 4.0}
+                style = {"marker": marker, "color": colour, "lw": 1.0, "mfc": face, "ms": 4.0}
                 if chosen:
-                    ax.plot(*zip(*chosen, strict=True), **how)
+                    ax.plot(*zip(*chosen, strict=True), **style)
         ax.axhline(1.0, color=GREY, lw=0.8)
         symbol = {"H_c": "$H_c$", "H_min": "$H_\\mathrm{min}$"}[quantity]
         ax.set(xscale="log", xlabel="$M$", ylabel=f"{symbol} by formula over pyehl")
