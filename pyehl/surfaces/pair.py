@@ -15,7 +15,7 @@ SAME = 1e-9
 """Relative difference below which two lengths or times count as equal."""
 MAX_TILES = 12
 """Maximum number of tiles of a surface along an axis in a tile of the sum, that of the passages in
-a common period (:data:`pyehl.prediction.relative_positions.MOST_PASSAGES`)."""
+a common period (:data:`pyehl.prediction.relative_positions.MAX_PASSAGES`)."""
 
 
 def composite_rms(tiles: Sequence[Topography], together: Topography | None = None) -> float:

@@ -2,9 +2,9 @@
 """Prepare a measured map as a periodic tile, in recorded steps.
 
 The order is fixed: crop, sign, outliers, align_lines, fill, detrend, rotate, edges. Spikes are
-removed before the plane is fitted, because they would tilt it, and holes are filled before the map
-is rotated; the edges are joined last. The record includes artefacts of the levelled map, see
-:mod:`pyehl.surfaces.findings`. :func:`pyehl.surfaces.working_map.defaults` resolves 'auto'.
+removed before the plane is fitted, because they would tilt it, and missing points are filled before
+the map is rotated; the edges are joined last. The record includes artefacts of the levelled map,
+see :mod:`pyehl.surfaces.findings`. :func:`pyehl.surfaces.working_map.defaults` resolves 'auto'.
 """
 
 import logging
@@ -109,12 +109,12 @@ def _prepared(
     work = WorkingMap(scan, keep=keep)
     check_pixels(scan.origin, work.z.shape)
     if any(options.crop):
-        work.do("crop", ", ".join(f"{v:g}" for v in options.crop),
+        work.add_step("crop", ", ".join(f"{v:g}" for v in options.crop),
                 map_steps.cropped(work.z, work.pixel, options.crop))  # fmt: skip
     tiles = 4 if keep and options.edges == "mirror" else 1
     check_pixels(scan.origin, work.z.shape, tiles, remedy=SMALLER)
     if options.sign < 0:
-        work.do("sign", "-1", -work.z)
+        work.add_step("sign", "-1", -work.z)
     complete = bool(np.isfinite(work.z).all())
     valid = None if complete else np.isfinite(work.z)
     if options.outliers > 0.0:
@@ -124,21 +124,21 @@ def _prepared(
         spiky |= dust_points(map_steps.levelled(work.z), options.outliers)
         valid = ~spiky if valid is None else valid & ~spiky
         work.begin()
-        work.own()[spiky] = np.nan
-        work.do("outliers", f"{options.outliers:g}", work.z, changed=int(spiky.sum()))
+        work.writable()[spiky] = np.nan
+        work.add_step("outliers", f"{options.outliers:g}", work.z, changed=int(spiky.sum()))
     if options.align_lines != "none":
         _report(scan, "align_lines")
         work.begin()
-        map_steps.align_lines(work.own(), options.align_lines)
-        work.do("align_lines", options.align_lines, work.z)
+        map_steps.align_lines(work.writable(), options.align_lines)
+        work.add_step("align_lines", options.align_lines, work.z)
     if valid is not None:
         _report(scan, "fill")
         _fill(work, options, valid)
     if options.detrend != "none":
         _report(scan, "detrend")
         work.begin()
-        map_steps.level(work.own(), options.detrend, valid)
-        work.do("detrend", options.detrend, work.z, why["detrend"])
+        map_steps.level(work.writable(), options.detrend, valid)
+        work.add_step("detrend", options.detrend, work.z, why["detrend"])
     _report(scan, "findings")
     periodic = options.edges == "periodic"
     corner = (options.crop[0], options.crop[2])
@@ -148,8 +148,8 @@ def _prepared(
     if options.rotate % 360.0 != 0.0:
         _report(scan, "rotate")
         turned, pixel = map_steps.rotated(work.z, work.pixel, options.rotate)
-        work.do("rotate", f"{options.rotate:g}", turned, pixel=pixel)
-    z = work.own()
+        work.add_step("rotate", f"{options.rotate:g}", turned, pixel=pixel)
+    z = work.writable()
     z -= z.mean()
     _check_rms(scan, float(np.sqrt(np.einsum("ij,ij->", z, z) / z.size)))
     return work, options, why
@@ -159,17 +159,17 @@ def _join(work: WorkingMap, options: Options, why: dict[str, str]) -> None:
     """Join the edges of the map to a tile of mean zero; mirror images are added later."""
     prepared = work.z
     if options.edges == "mirror":
-        work.do("edges", "mirror", prepared, why["edges"])
+        work.add_step("edges", "mirror", prepared, why["edges"])
     elif options.edges == "window":
         tile = map_steps.windowed(prepared)
-        work.do("edges", "window", tile, why["edges"], changed=map_steps.margin(tile.shape))
+        work.add_step("edges", "window", tile, why["edges"], changed=map_steps.margin(tile.shape))
         tile -= tile.mean()
     elif (steep := map_steps.jump(prepared)) > MAX_JUMP:
         note = (
             f"the edges do not match: steps across them are {steep:.3g} times those inside; "
             "if the map is not periodic, surface.edges = 'mirror'"
         )
-        work.do("edges", "periodic", prepared, why["edges"], note=note)
+        work.add_step("edges", "periodic", prepared, why["edges"], note=note)
 
 
 def _fill(work: WorkingMap, options: Options, valid: Mask) -> None:
@@ -187,8 +187,8 @@ def _fill(work: WorkingMap, options: Options, valid: Mask) -> None:
         full = map_steps.filled(work.z, work.pixel, (options.crop[0], options.crop[2]))
     except ValueError as error:
         raise InputError(f"{work.origin}: {error}") from None
-    why = "given" if options.outliers > 0.0 else "only the edges of the holes are known"
-    work.do("fill", options.fill, full, why, changed=missing)
+    why = "given" if options.outliers > 0.0 else "heights are known only around them"
+    work.add_step("fill", options.fill, full, why, changed=missing)
 
 
 def _report(scan: Scan, step: str) -> None:

@@ -219,7 +219,7 @@ class WorkingMap:
         self._last: areal.Extent | None = None
         self._kept = scan.heights if keep else None
 
-    def own(self) -> Array:
+    def writable(self) -> Array:
         """Return the heights for changes in place, as a copy if they are shared."""
         shared = self._kept is not None and np.may_share_memory(self.z, self._kept)
         if shared or not self.z.flags.writeable:
@@ -230,7 +230,7 @@ class WorkingMap:
         """Store the roughness of the map before a step that works in place."""
         self._last = self._last or areal.extent(self.z, self.pixel)
 
-    def do(
+    def add_step(
         self,
         name: str,
         value: str,
