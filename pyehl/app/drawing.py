@@ -20,7 +20,7 @@ VIEW = 1.3
 # Minimum number of pixels per side of the fringes
 PIXELS = 240
 LEVELS = 20
-HIGHEST = 1.6
+MAX_FILM = 1.6
 """Maximum film of the colours and the contours, over the central film."""
 
 

@@ -175,7 +175,7 @@ class _Groups:
 
     def _equals(self, name: Token, before: Key | None) -> None:
         """Read '=' after a key; if it is missing, refuse the text after the last value."""
-        behind = self.position
+        after = self.position
         if name.kind == ATOM:
             if self._next().kind == EQUALS:
                 return

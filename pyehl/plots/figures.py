@@ -161,7 +161,7 @@ def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
     return figure
 
 
-def _once(axes: list[Axes], outline: Outline) -> None:
+def _share_labels(axes: list[Axes], outline: Outline) -> None:
     """Remove repeated labels of two maps."""
     if outline.slender:
         drop_x_labels(axes[0])
