@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The smooth contact under a prediction, read from the result folder of a run."""
+"""Read the smooth contact of a prediction from the result folder of a run."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from pyehl.types import Settings
 
 
 def read_contact(folder: str | Path, operating: AnyContact, settings: Settings) -> SmoothContact:
-    """Pressure and film from a result folder, of a smooth contact or under a transient run.
+    """Read pressure and film of a smooth contact, or of the smooth contact of a transient run.
 
-    InputError if it is not the folder of a converged solution of the same contact: M and L, ratio
-    of the radii along and across the motion, the law that the flow obeys, lubricant and border of
-    the domain. The grid may be another.
+    InputError if the folder has no converged solution of the same contact: M and L, ratio of the
+    radii along and across the motion, shear law of the flow, lubricant and border of the domain.
+    The grid may differ.
     """
     folder = Path(folder)
     try:
@@ -65,7 +65,7 @@ def read_contact(folder: str | Path, operating: AnyContact, settings: Settings) 
 
 
 def _check_same(folder: Path, of_folder: Settings, settings: Settings) -> None:
-    """Refuse the contact of a folder whose lubricant or border is not that of a case."""
+    """Refuse a folder whose lubricant or border differs from that of the case."""
     there, here = (namelist.values(smooth_case(groups)) for groups in (of_folder, settings))
     names = [("grid", "border"), *(("lubricant", key) for key in here["lubricant"])]
     for group, key in names:
@@ -80,7 +80,7 @@ def _check_same(folder: Path, of_folder: Settings, settings: Settings) -> None:
 
 
 def _flow(settings: Settings) -> str:
-    """Law of the flow in words, with all that it depends on."""
+    """Return the shear law of the flow in words, with its parameters."""
     law = ShearLaw.from_settings(settings)
     if not law.in_flow:
         return "newtonian"

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shear stress integrals over the points of a contact, and those of the model of the paper.
+"""Integrals of the shear stress over the points of a contact, also for the model of the paper.
 
-That has a semi-ellipse of pressure and a uniform film on all pixels of the Hertz circle. Units:
-lengths along the surface by a, films by a^2/R, pressures by p_h.
+That model has a semi-elliptical pressure and a uniform film on all pixels of the Hertz circle.
+Lengths along the surface are scaled by a, films by a^2/R, pressures by p_h.
 """
 
 from __future__ import annotations
@@ -17,50 +17,50 @@ from pyehl.theory.shear import shear_stress
 from pyehl.types import Array, Indices, Single
 
 INNER = 0.8
-"""Pressures are reported within this distance from the centre: further out the roughness moves the
-edge of the contact to and fro [a]. The errors of docs/evidence/thinning are of this and NEAR."""
+"""Radius within which pressures are reported [a]: further out the roughness displaces the edge of
+the contact. The errors of docs/evidence/thinning refer to INNER and NEAR."""
 NEAR = 0.5
-"""Their rms is reported within this distance [a]."""
+"""Radius within which the rms pressure increase is reported [a]."""
 MIN_SAMPLES = 128
-"""Fewest points per Hertz radius when not all pixels are visited, in the model of the paper."""
+"""Minimum number of points per Hertz radius if pixels are skipped, in the model of the paper."""
 
 
 def thins(lubricant: Lubricant, operating: AnyContact) -> bool:
-    """Whether the shear stress is not the Newtonian one, as it is without sliding."""
+    """Whether the shear stress is not Newtonian; without sliding it is."""
     return lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
 
 
 class ShearedContact:
-    """Points of a contact, the shear stress integrals over them, and extremes so far."""
+    """Points of a contact, with integrals of the shear stress and extremes over the positions."""
 
-    minimum_film: float  # minimum film, whose sign shows film breakdown
+    minimum_film: float  # minimum film; not positive: film breakdown
     smooth: float  # sum of the stress of the smooth contact over the points, as `stress`
-    points: int  # within the contact
-    area: float  # that one of them stands for [m^2]
+    points: int  # number of points within the contact
+    area: float  # area per point [m^2]
 
     def __init__(self, operating: AnyContact, lubricant: Lubricant) -> None:
         self.operating, self.lubricant = operating, lubricant
         self.thins = thins(lubricant, operating)
         self.cavitated = 0  # points where the pressure is not positive
-        self.count = 0  # positions
+        self.count = 0  # number of positions
         self.ended = 0  # points where the film has ended
-        self.imbalance = 0.0  # largest share of the load that delta p carries or takes off [-]
+        self.imbalance = 0.0  # largest load of delta p over the load, in magnitude [-]
         self.lost = False  # whether the roughness reduces the pressure by more than there is
-        self.max_increase = -math.inf  # of the pressure over the smooth contact within INNER
-        self.max_pressure = -math.inf  # within INNER
-        self.squared_increase = 0.0  # sum over the positions of its mean square within NEAR
-        # Films of which the share of points below is counted, and the points that were below
+        self.max_increase = -math.inf  # maximum pressure increase by the roughness within INNER
+        self.max_pressure = -math.inf  # maximum pressure within INNER
+        self.squared_increase = 0.0  # sum over positions of the mean square increase within NEAR
+        # Film thicknesses, and the number of points with a thinner film than each
         self.levels: tuple[float, ...] = ()
         self.below = np.zeros(0, dtype=np.int64)
 
     def watch(self, levels: tuple[float, ...]) -> None:
-        """Count from now on how many points have less film than each of some levels."""
+        """Start counting the points with a thinner film than each of some levels."""
         self.levels, self.below = levels, np.zeros(len(levels), dtype=np.int64)
 
     def accumulate(
         self, increase: Array | Single, pressure: Array, film: Array, inner: Indices, near: Indices
     ) -> None:
-        """Accumulate the extremes at the points of a position; `inner`, `near`: INNER, NEAR."""
+        """Update the extremes by a position; `inner`, `near`: points within INNER, NEAR."""
         squares = np.square(increase.take(near), dtype=np.float64)
         self.squared_increase += float(squares.mean()) if near.size else math.nan
         maximum = float(increase.take(inner).max(initial=-math.inf))
@@ -71,19 +71,19 @@ class ShearedContact:
             self.below[i] += np.count_nonzero(film < level)
 
     def min_film(self) -> float:
-        """Minimum film so far, as reported."""
+        """Return the minimum film so far."""
         return self.minimum_film
 
     def increase_rms(self) -> float:
-        """Rms of the increase of the pressure over the positions within NEAR [p_h]."""
+        """Rms pressure increase within NEAR over all positions [p_h]."""
         return math.sqrt(self.squared_increase / max(1, self.count))
 
     def shares(self) -> Array:
-        """Mean share of the contact below each level [-]."""
+        """Mean fraction of the contact with a thinner film than each level [-]."""
         return np.asarray(self.below / max(1, self.count * self.points))
 
     def stress(self, pressure: Array, film: Array) -> Array:
-        """Shear stress [Pa]; of a Newtonian oil divided by eta0 and the sliding speed."""
+        """Shear stress [Pa]; for a Newtonian oil divided by eta0 and the sliding speed."""
         pressure = pressure * self.operating.hertz_pressure
         ratio = self.lubricant.viscosity_ratio(pressure) / (film * self.operating.film_scale)
         if not self.thins:
@@ -96,13 +96,13 @@ class ShearedContact:
         return self.coefficient(self.smooth) if math.isfinite(self.smooth) else math.nan
 
     def coefficient(self, stress: float) -> float:
-        """Coefficient of friction of a sum of shear stress, as `stress` has it [-]."""
+        """Coefficient of friction from a sum of `stress` over the points [-]."""
         result = stress * self.area / self.operating.load
         newtonian = self.lubricant.viscosity * self.operating.sliding_speed
         return result if self.thins else result * newtonian
 
     def cavitated_bound(self, minimum: float) -> float:
-        """Bound of the share of friction where the pressure is zero, by the minimum ratio."""
+        """Bound on the fraction of friction at zero pressure, from the minimum friction ratio."""
         if self.cavitated == 0:
             return 0.0
         stress = float(self.stress(np.array(0.0), np.array(self.minimum_film)))
@@ -110,7 +110,7 @@ class ShearedContact:
 
 
 class HertzContact(ShearedContact):
-    """All pixels of the Hertz circle, in a semi-ellipse of pressure and a uniform film."""
+    """Pixels of the Hertz circle with a semi-elliptical pressure and a uniform film."""
 
     def __init__(
         self,
@@ -133,7 +133,7 @@ class HertzContact(ShearedContact):
         square = (i * pixel[0])[:, np.newaxis] ** 2 + (j * pixel[1])[np.newaxis, :] ** 2
         inside = square < 1.0
         self.radius_squared = square[inside]
-        # places in the flattened tile
+        # indices in the flattened tile
         self.index = ((i % nx)[:, np.newaxis] * ny + j % ny)[inside]
         self.points = self.index.size
         # every height within |y| < a passes through the contact
@@ -143,14 +143,14 @@ class HertzContact(ShearedContact):
         self.smooth = float(self.stress(self.semi_ellipse, np.array(film)).sum())
 
     def friction(self, position: tuple[float, float]) -> float:
-        """Integral of the shear stress over that of the smooth contact, in a position."""
+        """Integral of the shear stress over that of the smooth contact, for a position."""
         pixels = [int(number) for number in position]
         moved = [np.roll(v, pixels, (0, 1)) for v in (self.pressure, self.deformed)]
         delta, deformed = (values.ravel().take(self.index) for values in moved)
         film = self.film - deformed
         if min(self.minimum_film, float(film.min())) <= 0.0:
             return math.nan
-        # times the area of the circle, not of its pixels: the load is 2 pi/3
+        # with the area of the circle, not of its pixels: the load is 2 pi/3
         carried = 1.5 * float(delta.mean())
         self.imbalance = max(self.imbalance, abs(carried))
         pressure = self.semi_ellipse
@@ -170,11 +170,11 @@ class HertzContact(ShearedContact):
 
 
 def _lattice(radius: float, pixels: int) -> tuple[Indices, int]:
-    """Pixels of a diameter at which the stress is taken, and their stride.
+    """Pixels along a diameter at which the stress is computed, and their stride.
 
-    All of them unless the tile is much shorter than the contact and finely sampled. Then a stride
-    without common divisor with the tile meets each of its pixels in turn, and the contact is still
-    met at MIN_SAMPLES points and each pixel of the tile at eight places of it.
+    The stride is 1 unless the tile is much shorter than the contact and finely sampled. Then a
+    stride without common divisor with the tile visits all its pixels in turn, at MIN_SAMPLES points
+    per radius of the contact, and each pixel of the tile at eight positions in the contact.
     """
     half = int(radius)
     stride = max(1, half // max(MIN_SAMPLES, 4 * pixels))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The smooth contact under a prediction.
+"""The smooth contact of a prediction.
 
 It is the case without its surface, solved on grids of the prediction, or the dry contact of the
-paper. :mod:`pyehl.contact.result_folder` reads one that was solved by a run.
+paper. :mod:`pyehl.contact.result_folder` reads a solution of a run.
 """
 
 from __future__ import annotations
@@ -31,40 +31,39 @@ from pyehl.theory.shear import ShearLaw
 from pyehl.theory.transport import Zone, zone_on
 from pyehl.types import Array, Settings
 
-# Keys that pressure and film of a smooth contact do not depend on. Those of slip and oil they do
-# where the inlet is heated by shear, those of slip and law where the flow thins
+# Keys that do not affect pressure and film of a smooth contact; but slip and oil do if shear heats
+# the inlet, and slip and shear law do if the flow is shear-thinning
 OF_SLIP = ("slide_to_roll", "rough_surface")
 OF_SOLIDS = (
     "hardness",
     *("thermal_conductivity", "thermal_diffusivity"),
     *("thermal_conductivity_2", "thermal_diffusivity_2"),
 )
-# (a temperature is refused without something that it changes)
 OF_OIL = ("thermal_conductivity",)
 OF_SHEAR = (
     *("shear_law", "flow", "eyring_stress", "limiting_stress", "limiting_coefficient"),
     *("carreau_stress", "carreau_exponent"),
 )
-# The prediction is that of a full film
+# The prediction assumes a full film
 OF_CONTACT = ("boundary_film", "boundary_friction")
-# Groups without a say in a smooth contact (the radii of the bodies are in the group contact), and
-# keys of the grid of a run, in place of which the prediction has grids of its own
+# Groups that do not affect a smooth contact (the radii of the bodies are in the group contact), and
+# keys of the grid of a run, for which the prediction has its own grids
 OF_OTHERS = ("bodies", *GROUPS, "time", "psd", "output")
 OF_RUN = ("points", "points_y", "target_error", "max_points")
 
 INLET, RESOLVED = 1.3, 0.12
-"""A grid misses the share INLET (h/H^(2/3))^2 of the film that the inlet makes; what it may miss
-where bodies touch (``fortran/steady/inlet.f90``)."""
+"""Relative error of the film from the inlet on a grid of mesh size h, INLET (h/H^(2/3))^2, and its
+largest value allowed with solid contact (``fortran/steady/inlet.f90``)."""
 MINIMUM, THICKER = 0.3, 1.15
-"""Minimum film of a smooth contact over the central one, and the error of the formula for that."""
+"""Lower bound of minimum over central film, and upper bound of central film over its formula."""
 FINEST = 1025
 """Nodes per side of the finest grid that is tried."""
 POINTS_OF_LINE, FINEST_OF_LINE = 1025, 8193
-"""Nodes of the solution of a line, which is one row of them, and of the finest one."""
+"""Number of nodes of the first and of the finest grid of a line contact, which has one row."""
 
 
 def without_surface(settings: Settings) -> dict[str, dict[str, Any]]:
-    """Give a resolved case without its surfaces and the grid of its run."""
+    """Return a resolved case without its surfaces and the grid of its run."""
     return {
         group: {k: v for k, v in keys.items() if group != "grid" or k not in OF_RUN}
         for group, keys in settings.items()
@@ -73,12 +72,12 @@ def without_surface(settings: Settings) -> dict[str, dict[str, Any]]:
 
 
 def smooth_case(settings: Settings, *, boundary: bool = False) -> str:
-    """Text of the case whose solution is the smooth contact under a resolved case.
+    """Text of the case whose solution is the smooth contact of a resolved case.
 
-    All of the case but its surface and what a smooth contact does not depend on, so that a new key
-    is obeyed. `boundary`: with its boundary film. Cases that differ in their surface or the heat of
-    friction alone have the same; where the flow is Newtonian and the inlet not heated by shear, so
-    have those that differ in their slip or their shear law.
+    It has all keys except the surface and those that do not affect a smooth contact, so that new
+    keys are included. `boundary`: with its boundary film. Cases that differ only in their surface
+    or in frictional heating have the same text; with a Newtonian flow and no shear heating of the
+    inlet, so do cases that differ in slip or shear law.
     """
     thins = ShearLaw.from_settings(settings).in_flow
     heated = bool(settings["lubricant"]["thermal_reduction"])
@@ -98,10 +97,10 @@ def smooth_case(settings: Settings, *, boundary: bool = False) -> str:
 
 
 def touching_points(settings: Settings) -> int:
-    """Nodes along X that decide whether the smooth contact of a resolved case touches.
+    """Nodes along X needed to decide whether a smooth contact has solid contact.
 
-    No fewer than it has; they resolve the inlet as ``fortran/steady/inlet.f90`` asks for, up to
-    FINEST.
+    No fewer than those of the resolved case; they resolve the inlet as
+    ``fortran/steady/inlet.f90`` requires, up to FINEST.
     """
     if not settings["lubricant"].get("boundary_film", 0.0):
         return int(settings["grid"]["points"])
@@ -115,7 +114,7 @@ def touching_points(settings: Settings) -> int:
         return points
     while 2 * points - 1 <= FINEST:
         missed = INLET * (length / (points - 1)) ** 2 * film ** (-4.0 / 3.0)
-        # the film of a grid is thinner by more than it misses at its minimum
+        # the minimum film has a larger error than the central film
         if missed <= RESOLVED or boundary <= MINIMUM * (1.0 - 2.0 * missed) * film:
             break
         points = 2 * points - 1
@@ -124,21 +123,20 @@ def touching_points(settings: Settings) -> int:
 
 SHARE_NOTE = "contact_load_share_error_note"
 POINTS = 257
-"""Nodes per side of the solution. Its film is scaled to the extrapolated central film, so that the
-inlet error of the grid (4 % at M = 1000) is not in it. Grids up to FINEST are tried where there is
-no solution, or none to extrapolate from: the inlet of a contact under a high load is steep (M above
-2000 or so)."""
+"""Nodes per side of the solution. Scaling its film to the extrapolated central film removes the
+inlet error of the grid (4 % at M = 1000). Finer grids up to FINEST are tried if it does not
+converge or cannot be extrapolated: at high loads (M above about 2000) the inlet is steep."""
 CYCLES = 100
 """Fewest `max_cycles` with a boundary film: of the 112 contacts of docs/evidence/inlet/share.csv
 that converge 13 take more than 30 cycles, and none more than 90."""
 TOUCHES = 1.2
-"""Films thicker than this many boundary films are taken not to touch: with such a one the contacts
-of docs/evidence/inlet, on 257 x 257 nodes, have at most 2.4e-4 of their load at it, and none where
-that grid resolves the inlet; with a boundary film as thick as the film 3.5e-4."""
+"""Film over boundary film above which solid contact is excluded: at this ratio the contacts of
+docs/evidence/inlet, on 257 x 257 nodes, have a load share of at most 2.4e-4, and 0 if that grid
+resolves the inlet; with a boundary film as thick as the film 3.5e-4."""
 
 THINNING_POWER = -4.0 / 3.0
-"""Of the film in the viscosity that makes it, as waves notice it: the length of the inlet beside a
-wave is that of nabla_2, and M/L is a power -4/3 of the film in Hertz units."""
+"""Exponent of the film in the effective inlet viscosity for waves: the length of the inlet relative
+to a wave enters nabla_2, and M/L is proportional to the power -4/3 of the film in Hertz units."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,23 +149,23 @@ class SmoothContact:
     pressure: Array  # P (nx, ny) [p_h]
     film: Array  # H (nx, ny) [a^2/R]
     central_film: float  # H_c, extrapolated [a^2/R]
-    central_film_error: float  # its estimated error [a^2/R]; NaN for none
-    source: str  # where it is from, in words
+    central_film_error: float  # its estimated error [a^2/R]; NaN: not known
+    source: str  # its origin, in words
     minimum_film: float = math.nan  # H_min, extrapolated as H_c [a^2/R]; NaN where it is not known
-    extrapolated: bool = False  # whether `central_film` is
-    newtonian: SmoothContact | None = None  # that contact with a Newtonian flow; None: it is
+    extrapolated: bool = False  # whether `central_film` is extrapolated
+    newtonian: SmoothContact | None = None  # the contact with a Newtonian flow; None: this one
     minimum_film_error: float = math.nan  # estimated error of `minimum_film` [a^2/R]
-    load_share: float = math.nan  # share of the load at the boundary film [-]; NaN: not known
+    load_share: float = math.nan  # load share of the boundary film [-]; NaN: not known
 
     @property
     def thinning(self) -> float:
-        """Viscosity at low shear over that of a Newtonian lubricant with as thick a film [-]."""
+        """Viscosity at low shear over that of a Newtonian lubricant with the same film [-]."""
         if self.newtonian is None:
             return 1.0
         return float((self.central_film / self.newtonian.central_film) ** THINNING_POWER)
 
     def at(self, x: Array, y: Array) -> tuple[Array, Array]:
-        """P and H on the grid of places x (m,) and y (n,), both (m, n); outside P is zero."""
+        """Interpolate P and H (m, n) to x (m,) and y (n,); outside the domain P is zero."""
         if self.y.size == 1:
             # a line contact is the same on all lines
             ends = {"left": 0.0, "right": 0.0}
@@ -187,7 +185,7 @@ class SmoothContact:
 
 
 def _linear(places: Array, axis: Array) -> tuple[NDArray[np.intp], Array]:
-    """Node before each place (m,) on an equidistant axis, and the share of the next one."""
+    """Node before each position (m,) on an equidistant axis, and the weight of the next node."""
     at = (places - axis[0]) / (axis[1] - axis[0])
     before = np.clip(np.floor(at), 0, axis.size - 2).astype(np.intp)
     return before, np.clip(at - before, 0.0, 1.0)
@@ -196,8 +194,7 @@ def _linear(places: Array, axis: Array) -> tuple[NDArray[np.intp], Array]:
 def solve_contact(settings: Settings) -> SmoothContact:
     """Solve the smooth contact of a resolved case on POINTS x POINTS nodes, or on a finer grid.
 
-    The last few are kept, see `smooth_case`. EhlError if it does not converge on any grid up to
-    FINEST.
+    The last few are cached, see `smooth_case`. EhlError if no grid up to FINEST converges.
     """
     result = solved_text(smooth_case(settings))
     if not ShearLaw.from_settings(settings).in_flow:
@@ -209,10 +206,11 @@ def solve_contact(settings: Settings) -> SmoothContact:
 def with_boundary_film(
     settings: Settings, contact: SmoothContact, lubricant: Lubricant
 ) -> SmoothContact:
-    """Smooth contact with the boundary film of a case; `contact`, that without, if it is thinner.
+    """Return the smooth contact with the boundary film of a case; `contact` is that without it.
 
-    On the first grid that resolves its inlet. Its films are NaN, and the source states why, where
-    none does or it does not converge.
+    `contact` is returned if its film is thick enough; else the solution on the first grid that
+    resolves the inlet. If no grid does, or it does not converge, films are NaN and the source
+    states why.
     """
     operating = operating_of(settings)
     boundary = float(settings["lubricant"]["boundary_film"]) / operating.film_scale
@@ -225,14 +223,14 @@ def with_boundary_film(
     if result is not None:
         return result
     n = math.nan
-    lost = f"not known: with the boundary film {why}"
-    return SmoothContact(contact.x, contact.y, n * pressure, n * pressure, n, n, lost)
+    source = f"not known: with the boundary film {why}"
+    return SmoothContact(contact.x, contact.y, n * pressure, n * pressure, n, n, source)
 
 
 def circle_of(
     contact: SmoothContact, operating: AnyContact, lubricant: Lubricant
 ) -> tuple[float, float]:
-    """M and L [-] of the circular contact with the same inlet, in a Newtonian flow."""
+    """M and L [-] of the circular contact with the same inlet, for a Newtonian flow."""
     film = (contact.newtonian or contact).central_film
     return circle_with_same_inlet(operating, lubricant, film)
 
@@ -245,7 +243,7 @@ def forget() -> None:
 
 @lru_cache(maxsize=8)
 def solved_text(text: str) -> SmoothContact:
-    """Solve a smooth contact by its text, once, on grids until its films can be extrapolated."""
+    """Solve a case of a smooth contact, on finer grids until its films can be extrapolated."""
     best = None
     points, finest = _grids(text)
     while points <= finest:
@@ -265,10 +263,10 @@ def solved_text(text: str) -> SmoothContact:
 
 @lru_cache(maxsize=8)
 def _solved_with_boundary_film(text: str, cycles: int) -> tuple[SmoothContact | None, str]:
-    """Solve with a boundary film; None, and why, where no grid has a solution that is its own.
+    """Solve with a boundary film; None, and why, if no grid has a load share.
 
-    Where no finer grid has one, one of half as many nodes is tried: a finer one has the load share
-    of each of the contacts of docs/evidence/inlet that 129 nodes have one of.
+    If no finer grid has one, a grid of half as many nodes is tried; in docs/evidence/inlet finer
+    grids have a load share for every contact for which 129 nodes have one.
     """
     options = [f"solver.max_cycles={cycles}"]
     why, (points, finest) = "it does not converge", _grids(text)
@@ -283,7 +281,7 @@ def _solved_with_boundary_film(text: str, cycles: int) -> tuple[SmoothContact | 
 
 
 def _grids(text: str) -> tuple[int, int]:
-    """Nodes along X of the first and of the finest grid for the text of a case."""
+    """Nodes along X of the first and of the finest grid for a case."""
     line = namelist.values(text)["contact"].get("shape") == "line"
     return (POINTS_OF_LINE, FINEST_OF_LINE) if line else (POINTS, FINEST)
 
@@ -291,9 +289,9 @@ def _grids(text: str) -> tuple[int, int]:
 def _on_grid(
     text: str, points: int, options: Sequence[str] = ()
 ) -> tuple[SmoothContact | None, str]:
-    """Solve on a grid; None if there is no solution, and its status.
+    """Solve on a grid; None if there is no solution, with its status.
 
-    With a boundary film that may touch because of the grid: why; else ''.
+    With a solution '', or the reason why its load share is not known.
     """
     case = Case.from_text(text, [f"grid.points={points}", *options], origin="smooth contact")
     with SolverHandle(case.text) as solver:
@@ -304,7 +302,7 @@ def _on_grid(
             return None, str(summary["status"])
         (x, y), pressure, film = solver.axes(), solver.field("P"), solver.field("H")
     where = f"solved on {x.size} x {y.size} nodes"
-    # bodies that touch on a grid that does not resolve the inlet have no load share
+    # with solid contact on a grid that does not resolve the inlet there is no load share
     touches = summary.get("contact_load_share", 0.0) is None
     why = words_of(result, case.resolve())[result.codes[SHARE_NOTE]] if touches else ""
     return contact_of(summary, (x, y), pressure, film, where), why
@@ -313,10 +311,10 @@ def _on_grid(
 def contact_of(
     summary: Mapping[str, Any], axes: tuple[Array, Array], pressure: Array, film: Array, where: str
 ) -> SmoothContact:
-    """Smooth contact of a run by its summary, its fields P and H (nx, ny), and where it is from.
+    """Smooth contact from the summary of a run, its fields P and H (nx, ny), and its origin.
 
-    The films are scaled to the extrapolated central film where there is one: without a solution on
-    the next coarser grid there is nothing to extrapolate from.
+    The films are scaled to the extrapolated central film if there is one, which needs a solution on
+    the next coarser grid.
     """
     limit = summary["H_c_extrapolated"]
     extrapolated = "extrapolated" if limit is not None else "not extrapolated"
@@ -342,13 +340,13 @@ def contact_of(
 
 
 def film_of(summary: Mapping[str, Any], name: str) -> tuple[float, float | None]:
-    """Film ``H_c`` or ``H_min`` of a run, extrapolated where it could be, and its error."""
+    """Film ``H_c`` or ``H_min`` of a run, extrapolated if possible, and its error."""
     limit = summary.get(f"{name}_extrapolated")
     return summary[name] if limit is None else limit, summary.get(f"{name}_error")
 
 
 def hertz_contact(central_film: float, source: str) -> SmoothContact:
-    """Semi-ellipse of pressure and a uniform film [a^2/R], as Zhang et al. 2019, section 3."""
+    """Semi-elliptical pressure and a uniform film [a^2/R], as in Zhang et al. 2019, section 3."""
     line = np.linspace(-1.0, 1.0, POINTS)
     square = line[:, np.newaxis] ** 2 + line[np.newaxis, :] ** 2
     pressure = np.sqrt(np.maximum(0.0, 1.0 - square))
@@ -357,7 +355,7 @@ def hertz_contact(central_film: float, source: str) -> SmoothContact:
 
 
 def zone_of(contact: SmoothContact, operating: AnyContact, lubricant: Lubricant) -> Zone:
-    """Return the centre line of a smooth contact with what enters the transport of waves."""
+    """Return the centre line of a smooth contact, for the transport of waves."""
     middle = int(np.argmin(np.abs(contact.y)))
     pressure = np.maximum(contact.pressure[:, middle], 0.0)
     film = contact.film[:, middle]
@@ -369,11 +367,11 @@ def zone_of(contact: SmoothContact, operating: AnyContact, lubricant: Lubricant)
 
 
 def heat_of(settings: Settings, contact: SmoothContact, lubricant: Lubricant) -> Heat:
-    """Give what the heat of sliding makes of friction in the smooth contact of a resolved case.
+    """Return the effect of frictional heating on the smooth contact of a resolved case.
 
-    On the pressure and the film of the prediction. InputError if the case is not acceptable.
+    Computed from pressure and film of the prediction. InputError if the case is not valid.
     """
-    # rows that mirror each other have the same temperature
+    # mirrored rows have the same temperature
     even = float(settings["contact"].get("angle", 0.0)) == 0.0 and contact.y.size > 1
     first = int(np.argmin(np.abs(contact.y))) if even else 0
     pressure, film = contact.pressure[:, first:], contact.film[:, first:]

@@ -79,7 +79,7 @@ class FilmTable:
         u, a = self._places(speeds, coefficient)
         return np.exp(chebyshev.chebval2d(u, a, self._terms))
 
-    def powers(self, speeds: Array, coefficient: float) -> tuple[float, float]:
+    def exponents(self, speeds: Array, coefficient: float) -> tuple[float, float]:
         """Mean exponents of speed and of coefficient in the film."""
         u, a = self._places(speeds, coefficient)
         slopes = [chebyshev.chebval2d(u, a, chebyshev.chebder(self._terms, axis=k)) for k in (0, 1)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Heights that can hardly be those of a surface: missing points, frequent values, slopes."""
+"""Detect implausible heights: marks of missing points, frequent values, steep slopes."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,30 +8,30 @@ from pyehl.types import Array
 
 _MARKS = (999.0, 9999.0, 99999.0, 999999.0, 32767.0, 32768.0, 65535.0, 65534.0, 1000001.0,
           2147483640.0, 2147483647.0, 2147483648.0, 4294967295.0)  # fmt: skip
-"""Numbers that programs write for a missing point, of either sign."""
+"""Numbers that programs write for a missing point, with either sign."""
 HUGE, FAR = 1e30, 1e3
-"""Numbers from HUGE on are no heights in any unit, lengths from FAR on [m] none of a surface."""
+"""Implausible heights: at least HUGE in any unit, or FAR in metres."""
 APART = 0.5
 """Minimum distance of a mark of missing points from all other heights, over their range."""
 OFTEN, TIMES = 5, 8
-"""A height counts as frequent if it is there OFTEN times, and TIMES as often as any other."""
+"""A height is frequent if it occurs OFTEN times, and TIMES as often as any other value."""
 RANGES = 2.0
-"""Ranges of all other heights that are far."""
+"""Distance of an isolated height from all others, over their range."""
 STEEP = 1.0
 """Slope of 45 degrees."""
 SAMPLE = 2**17
-"""Heights of a large map that are looked at, and of its slopes."""
+"""Number of heights, and of slopes, of a large map that are examined."""
 LINES = 256
 NORMAL = 0.6744897501960817
 """Median of the absolute value of a normal distribution, over its standard deviation."""
 
 
 def unmarked(heights: Array, unit: float | None = None) -> list[str]:
-    """Take the marks of missing points out of heights in the numbers of the file, in place.
+    """Replace marks of missing points by NaN in heights as stored in the file, in place.
 
-    `unit` has the metres in the unit of these numbers, None where it is not known. Notes
-    say which, and how many. A mark is a number that programs write for a missing point, at one end
-    of all heights and far off the others.
+    `unit` is the unit of the heights [m], None if it is not known. Returns notes with the marks and
+    their number. A mark is a number that programs write for a missing point, the smallest or the
+    largest of all heights and far from the others.
     """
     notes = []
     infinite = np.isinf(heights)
@@ -43,7 +43,7 @@ def unmarked(heights: Array, unit: float | None = None) -> list[str]:
     if huge.any():
         heights[huge] = np.nan
         notes.append(f"{int(huge.sum())} heights beyond {limit:g} are marks of missing points")
-    # one at each end, and a second one there
+    # up to two marks at each end
     for _ in range(4):
         mark = _mark(heights)
         if mark is None:
@@ -55,7 +55,7 @@ def unmarked(heights: Array, unit: float | None = None) -> list[str]:
 
 
 def _mark(heights: Array) -> float | None:
-    """Mark of missing points at one end of the heights; None if there is none."""
+    """Find a mark of missing points at one end of the heights; None if there is none."""
     for end in (float(np.fmin.reduce(heights, None)), float(np.fmax.reduce(heights, None))):
         if abs(end) not in _MARKS:
             continue
@@ -69,9 +69,9 @@ def _mark(heights: Array) -> float | None:
 
 
 def doubts(heights: Array) -> list[str]:
-    """Note heights that may be none: one value far more often than any other.
+    """Note values that may mark missing points because they are far more frequent than others.
 
-    Of a large map a part of the heights is looked at.
+    Only a sample of a large map is examined.
     """
     part = heights.ravel()[:: max(1, heights.size // SAMPLE)]
     values, counts = np.unique(part[np.isfinite(part)], return_counts=True)
@@ -79,7 +79,7 @@ def doubts(heights: Array) -> list[str]:
         return []
     notes = [_far_end(values, counts, end) for end in (0, -1)]
     ends = {0: "the smallest one", values.size - 1: "the largest one"}
-    # an end of the range of an instrument may be there at both
+    # both ends of the range of an instrument may occur
     for place in np.argsort(counts)[:-3:-1]:
         rest = np.delete(counts, [place, *ends]).max()
         if counts[place] < max(OFTEN, TIMES * rest) or counts[place] > part.size // 2:
@@ -106,10 +106,10 @@ def _far_end(values: Array, counts: NDArray[np.signedinteger], end: int) -> str:
 
 
 def slopes(heights: Array, pixel: tuple[float, float]) -> tuple[float, float]:
-    """Usual slope of a map (standard deviation by the median), and the share of steep steps.
+    """Typical slope of a map (standard deviation from the median), and fraction of steep steps.
 
-    Heights (nx, ny) [m], pixel size along x and y [m]. The usual slope of a large map is that of
-    lines in equal distances.
+    Heights (nx, ny) [m], pixel size along x and y [m]. The typical slope of a large map is from
+    evenly spaced lines.
     """
     usual, steep, count = 0.0, 0, 0
     for axis, size in enumerate(pixel):

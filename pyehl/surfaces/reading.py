@@ -2,8 +2,8 @@
 """Height maps from files, as they are: `.npy` and text by numpy, all else by SurfaceTopography.
 
 Axes: the first index of a map runs along x, which is the direction of motion, the second along y.
-An instrument file is taken as SurfaceTopography gives it: x along the lines of the image (its
-width), y across them. A map whose lay or motion is another way is turned by `surface.rotate`.
+An instrument file has the axes of SurfaceTopography: x along the lines of the image (its width), y
+across them. `surface.rotate` rotates a map with another direction of lay or motion.
 
 Texts of known programs are read by their own rules. What :mod:`pyehl.surfaces.plausibility` finds
 of heights that can hardly be those of a surface is reported.
@@ -27,21 +27,21 @@ from pyehl.surfaces.text_table import HEADER_LINES, tables_of
 from pyehl.surfaces.variants import ZYGO_MAGIC, read_zygo
 from pyehl.types import Array
 
-# Headers of Wyko, SPIP, Attocube and Nova, which SurfaceTopography knows: their numbers need
-# factors that the header has
+# Headers of Wyko, SPIP, Attocube and Nova, which SurfaceTopography knows; the heights need factors
+# of the header
 FLAVOUR = re.compile(
     r"^Wyko ASCII|^#\s*File Format\s*=\s*ASCII|^\s*(?:Unit|Scale) (?:X|Data)\s*="
     r"|height\s+conversion\s+factor",
     re.IGNORECASE,
 )
-# A stylus instrument's, of Mahr
+# Header of a Mahr stylus instrument
 PROFILE = re.compile(r"\bPRF\s*$")
-# Files that begin with the mark of a format that has a reader
+# Magic numbers of formats that have a reader
 MARKED = ("aISO-1.0", "aBCR-1", "fileformat = bcr")
 
 
 def read_known_text(path: Path, encoding: str, channel: str) -> Found | None:
-    """Read a text of a known program; None if it is of none."""
+    """Read a text of a known program; None if the program is unknown."""
     first = [line for _, line in islice(lines_of(path, encoding), HEADER_LINES)]
     if not first:
         return None
@@ -59,7 +59,7 @@ def read_known_text(path: Path, encoding: str, channel: str) -> Found | None:
 
 
 def _zygo(path: Path, encoding: str, channel: str) -> Found:
-    """Heights of a text of Zygo."""
+    """Read a text of Zygo."""
     if channel:
         raise InputError(f"{path}: surface.channel = '{channel}', but the file holds one map alone")
     try:
@@ -76,7 +76,7 @@ def _zygo(path: Path, encoding: str, channel: str) -> Found:
 
 
 def _flavoured(path: Path, encoding: str, channel: str) -> Found:
-    """Heights of a text whose header SurfaceTopography knows, every line read and counted here."""
+    """Read a text whose header SurfaceTopography knows, after reading and counting all lines."""
     tables = tables_of(path, encoding)
 
     def lines() -> Iterator[str]:
@@ -95,35 +95,35 @@ def _flavoured(path: Path, encoding: str, channel: str) -> Found:
 
 
 PIXEL_BAND = (1e-10, 1e-3)
-"""Pixels outside of it [m] are mistakes of units."""
+"""Pixel sizes outside this range [m] indicate a wrong unit."""
 CLEAR_BAND = (2e-8, 1e-4)
-"""Pixels outside of it [m] are asked for, where x and y are in the unit of the heights by default:
-heights in m beside places in mm would be a map of the size of a table."""
+"""Pixel sizes outside this range [m] need an explicit unit. Its default is that of the heights, but
+heights in m with positions in mm would make a map as large as a table."""
 SAME = "same"
-"""The unit of places is that of the heights."""
+"""The unit of the positions is that of the heights."""
 
 TEXT_SUFFIXES = (".txt", ".csv", ".dat", ".asc", ".xyz", ".tsv", ".tab", ".prn", "")
 
 
 @dataclass(frozen=True, slots=True)
 class Scan:
-    """A height map as a file has it."""
+    """A height map as read from a file."""
 
-    # (nx, ny) [m], peaks positive, NaN where the instrument saw nothing. Pixel [i, j] lies at x = i
-    # length_x/nx, y = j length_y/ny
+    # (nx, ny) [m], peaks positive, NaN where not measured. Pixel [i, j] lies at x = i length_x/nx,
+    # y = j length_y/ny
     heights: Array
     # Size [m]
     length_x: float
     length_y: float
     origin: str  # name of the file
-    # Whether it is an array (`.npy`, text), with no word about how it came about, or a file of an
+    # Whether it is an array (`.npy`, text) without information on its origin, or a file of an
     # instrument
     is_array: bool = True
-    is_periodic: bool = False  # whether the file states that the map can be repeated without a seam
+    is_periodic: bool = False  # whether the file states that the map is periodic
     channel: str = ""  # name of the channel or data set; empty for arrays
-    # Where the size is from: 'the file' or 'surface.length_x, surface.length_y'
+    # Source of the size: 'the file' or 'surface.length_x, surface.length_y'
     size_from: str = "surface.length_x, surface.length_y"
-    note: str = ""  # what a person should know besides; mostly empty
+    note: str = ""  # remark for the user; usually empty
 
 
 def read_scan(
@@ -134,21 +134,20 @@ def read_scan(
     height_unit: str = "m",
     lateral_unit: str = SAME,
 ) -> Scan:
-    """Read a height map with its size [m]: needed where the file has none, else in place of it.
+    """Read a height map; a given size [m] replaces that of the file, which may have none.
 
     ``.npy`` (never pickled) or text (``.txt``, ``.csv``, ``.dat``, ``.asc``: one x per line, y
-    along the line, separated by blanks, commas, semicolons or tabs; a table under lines of words,
-    or with axes; or a list of the x, y and z of all points of a grid, see
-    :mod:`pyehl.surfaces.text_map`), NaN where heights are missing; any other file must be one that
-    SurfaceTopography reads. Heights are in `height_unit` ('m', 'mm', 'um' or 'nm') where the file
-    names no unit of theirs, the places of a list or of axes in `lateral_unit` (or 'same': that of
-    the heights).
-    `channel` is the name of a channel of an instrument file, or its number, counted from 1; empty:
-    the one that the file calls its first height channel.
+    along the line, separated by blanks, commas, semicolons or tabs; a table under a header, or with
+    axes; or a list of the x, y and z of all points of a grid, see :mod:`pyehl.surfaces.text_map`),
+    NaN where heights are missing; any other file must be one that SurfaceTopography reads. Heights
+    are in `height_unit` ('m', 'mm', 'um' or 'nm') if the file does not name their unit, positions
+    of a list or of axes in `lateral_unit` (or 'same': that of the heights). `channel` is the name
+    of a channel of an instrument file, or its number, counted from 1; empty: the first height
+    channel according to the file.
 
     FileError if the file cannot be opened; NoMemoryError if it is larger than the memory;
-    InputError if it is no matrix of numbers, has no size, has no such channel or its size cannot
-    be meant.
+    InputError if it is no matrix of numbers, has no size or no such channel, or its size is
+    implausible.
     """
     path = Path(path)
     if not path.is_file():
@@ -166,7 +165,7 @@ def _read(path: Path, given: Sizes, channel: str, height_unit: str, lateral_unit
     if length == 0:
         raise InputError(f"{path}: the file is empty")
     if path.suffix.lower() != ".npy":
-        # a line of text may be as long as the file; the header of an array has more
+        # a line of text may be as long as the file; the header of an array states its size
         check_memory(f"{path}: a file of this length", length)
     result = _found(path, channel)
     notes = [*result.notes, *_measured(path, result, height_unit)]
@@ -229,7 +228,7 @@ def _found(path: Path, channel: str) -> Found:
 
 
 def _measured(path: Path, result: Found, height_unit: str) -> list[str]:
-    """Heights in metres, without marks of missing points; notes on both."""
+    """Convert heights to metres, without marks of missing points; returns notes on both."""
     if result.height_unit is not None and height_unit != "m":
         raise InputError(
             f"{path}: surface.height_unit = '{height_unit}', but the file names its unit itself"
@@ -249,7 +248,7 @@ def _measured(path: Path, result: Found, height_unit: str) -> list[str]:
 def _own_size(
     path: Path, result: Found, lateral_unit: str, height_unit: str
 ) -> tuple[Sizes, list[str]]:
-    """Size that the file has [m], and notes on its unit."""
+    """Return the size stated in the file [m], and notes on its unit."""
     x, y = result.size
     for name, size in (("length_x", x), ("length_y", y)):
         if size is not None and not size > 0.0:
@@ -277,7 +276,7 @@ def _own_size(
 
 
 def _sensible(scan: Scan) -> Scan:
-    """Refuse heights that are steeper than any surface, and note where some are."""
+    """Refuse heights that are steeper than any surface, and note steep steps."""
     nx, ny = scan.heights.shape
     usual, share = slopes(scan.heights, (scan.length_x / nx, scan.length_y / ny))
     if usual > STEEP:
@@ -297,7 +296,7 @@ def _sensible(scan: Scan) -> Scan:
 
 
 def _check_shape(path: Path, shape: tuple[int, ...]) -> None:
-    """Refuse what is no map."""
+    """Refuse a map with too few pixels."""
     if min(shape) < MIN_PIXELS:
         lines = ("a profile along one line", "a profile of x and z")
         what = f"; is it {lines[shape[1] - 1]}?" if shape[1] <= len(lines) < shape[0] else ""
@@ -308,7 +307,7 @@ def _check_shape(path: Path, shape: tuple[int, ...]) -> None:
 
 
 def _check_pixel(scan: Scan) -> None:
-    """Refuse pixels that can only be a mistake of units."""
+    """Refuse pixel sizes that indicate a wrong unit."""
     sides = zip(("x", "y"), (scan.length_x, scan.length_y), scan.heights.shape, strict=True)
     for axis, length, pixels in sides:
         pixel = length / pixels
@@ -322,10 +321,7 @@ def _check_pixel(scan: Scan) -> None:
 
 
 def plain_array(path: str, shape: tuple[int, ...]) -> bool:
-    """Whether a file is one that the solver reads itself: ``.npy`` of little-endian floats.
-
-    All of it are heights, without axes.
-    """
+    """Whether the solver reads a file itself: ``.npy`` of little-endian floats without axes."""
     if not path.endswith(".npy"):
         return False
     array = np.load(path, mmap_mode="r", allow_pickle=False)

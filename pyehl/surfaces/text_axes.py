@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The axes of a table of heights as text: its first line and column."""
+"""Detect and remove the axes of a table of heights: its first line and column."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -10,30 +10,30 @@ from pyehl.surfaces.text_table import BadCellError, Cells
 from pyehl.types import Array
 
 MIN_PLACES = 5
-# Of a step: how far places may be from equal steps or a grid, for they are rounded
+# Deviation of positions from even steps that counts as rounding, over the step
 OFF = 0.02
 GROWING = 0.9
-"""Minimum correlation with the number of the line of what may be an axis."""
+"""Minimum correlation of an axis with the number of the line."""
 BEYOND = 10.0
 """Minimum range of a line that is an axis, over the range of all heights."""
 
 
 @dataclass(frozen=True, slots=True)
 class Axes:
-    """Axes that were taken off a table."""
+    """Axes that were removed from a table."""
 
-    # Along a line and from line to line, in the numbers of the file; None where it has no such
-    # axis. None as a whole where they are numbers of pixels
+    # Steps along a line and from line to line, in the unit of the file; None for a missing axis.
+    # None as a whole if the axes count pixels
     steps: tuple[float | None, float | None] | None
     note: str
 
     def turned(self) -> "Axes":
-        """Give the axes of a table with one x per line."""
+        """Return the axes of a table with one x per line."""
         return replace(self, steps=self.steps and (self.steps[1], self.steps[0]))
 
 
 def is_axis(values: Array) -> bool:
-    """Whether numbers grow, or fall, in equal steps."""
+    """Whether numbers increase, or decrease, in equal steps."""
     if values.size < MIN_PLACES or not np.isfinite(values).all():
         return False
     step = (values[-1] - values[0]) / (values.size - 1)
@@ -42,7 +42,7 @@ def is_axis(values: Array) -> bool:
 
 
 def _is_sorted(values: Array) -> bool:
-    """Whether at least a few numbers rise, or fall, from each to the next."""
+    """Whether several numbers are monotonic."""
     steps = np.diff(values)
     return values.size >= MIN_PLACES and bool((steps > 0.0).all() or (steps < 0.0).all())
 
@@ -53,13 +53,13 @@ def _is_numbering(values: Array) -> bool:
 
 
 def _grows(lines: Array) -> bool:
-    """Whether the first number of each line grows, or falls, far beyond the range of all others."""
+    """Whether the first number of each line is monotonic far beyond the range of all others."""
     if min(lines.shape) <= MIN_PLACES:
         return False
     first = lines[1:, 0]
     if not np.isfinite(first).all() or not np.ptp(first):
         return False
-    # a line that is there twice, or in another place, is no doubt about the others
+    # the correlation tolerates repeated or misplaced lines
     if abs(float(np.corrcoef(first, np.arange(first.size))[0, 1])) < GROWING:
         return False
     others = lines[1:, 1:]
@@ -68,16 +68,16 @@ def _grows(lines: Array) -> bool:
 
 
 def without_axes(rows: Array, header: Sequence[str], cells: Cells) -> tuple[Array, Axes | None]:
-    """Heights of a table without its axes, and these; None where it has none.
+    """Return the heights of a table without its axes, and the axes; None if it has none.
 
-    Heights never lie on a straight line while those beside them do not: such a first line is that
-    of x, such a first column that of y. The line of x may have a word at its corner, and is then
-    the last line of the header. ValueError if such a line is there, and its steps are not equal.
+    Heights are never evenly spaced numbers while those of the next line are not: such a first line
+    has the positions x, such a first column the positions y. A line of x with a word at its corner
+    is the last line of the header. ValueError if the steps of an axis are not equal.
     """
     across = along = None
     heading = _heading(header[-1], cells, rows.shape[1]) if header else None
     if min(rows.shape) > MIN_PLACES:
-        # an index of the lines stands before the x, y and z of a list as well
+        # a list of x, y and z may also have an index of the lines
         if is_axis(rows[1:, 0]) and not is_axis(rows[1:, 1]):
             across = rows[:, 0]
         if is_axis(rows[0, 1:]) and not is_axis(rows[1, 1:]):
@@ -109,7 +109,7 @@ def without_axes(rows: Array, header: Sequence[str], cells: Cells) -> tuple[Arra
 
 
 def _heading(line: str, cells: Cells, columns: int) -> Array | None:
-    """Numbers of a line whose first cell is a word, or left out; None if they are none."""
+    """Numbers of a line whose first cell is a word or missing; None if others are no numbers."""
     words = cells.split(line.lstrip("#"))
     if len(words) not in (columns, columns - 1):
         return None
@@ -121,7 +121,7 @@ def _heading(line: str, cells: Cells, columns: int) -> Array | None:
 
 
 def _rising(rows: Array, along: Array | None, across: Array | None) -> tuple[Array, Axes]:
-    """Heights in the order of rising places, with the steps."""
+    """Return the heights in the order of increasing positions, with the steps."""
     result = [axis for axis in (along, across) if axis is not None]
     steps: list[float | None] = []
     for number, axis in ((1, along), (0, across)):

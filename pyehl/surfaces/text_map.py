@@ -18,12 +18,12 @@ MAX_COLUMNS = 8
 
 
 def is_list(rows: Array) -> bool:
-    """Whether rows of three numbers (n, 3) are points and no map: n is then far larger."""
+    """Whether rows of three numbers (n, 3) are a list of points and not a map."""
     return rows.ndim == 2 and rows.shape[1] == 3 and rows.shape[0] > 3
 
 
 def is_longer_list(path: Path, rows: Array) -> bool:
-    """Whether rows of few numbers are the x, y and z of points, and what else is known of them."""
+    """Whether rows of a few numbers are the x, y and z of points with further columns."""
     lines, columns = rows.shape
     if not (3 < columns <= MAX_COLUMNS and lines >= 4 * columns):
         return False
@@ -44,10 +44,10 @@ def are_pixel_numbers(points: Array) -> bool:
 
 
 def grid_of(path: Path, points: Array) -> tuple[Array, tuple[float, float]]:
-    """Heights (nx, ny) on the grid of points x, y, z (n, 3) in any order, and its steps.
+    """Return heights (nx, ny) on the grid of points x, y, z (n, 3) in any order, and its steps.
 
-    Lengths are in the unit of the points. A point that is not there is NaN. InputError if the
-    places are no grid of equal steps, or a place is there twice.
+    Lengths are in the unit of the points. Missing points are NaN. InputError if the points do not
+    form a grid of equal steps, or a point occurs twice.
     """
     indices, shape, steps = [], [], []
     for axis, name in enumerate("xy"):
@@ -56,11 +56,11 @@ def grid_of(path: Path, points: Array) -> tuple[Array, tuple[float, float]]:
             row = int(np.argmin(np.isfinite(places)))
             raise InputError(f"{path}: point {row + 1} of the list has no {name}")
         gaps = np.diff(np.unique(places))
-        # places of one line differ by rounding
+        # positions on one line differ by rounding
         gaps = gaps[gaps > OFF * gaps.max(initial=0.0)]
         if not gaps.size:
             raise InputError(f"{path}: all points of the list of x, y and z have the same {name}")
-        # the span gives it more accurately than the places, which are rounded
+        # the span gives the step more accurately than the rounded positions
         span = float(np.ptp(places))
         step = span / round(span / float(np.median(gaps)))
         at = (places - places.min()) / step
@@ -90,18 +90,18 @@ def grid_of(path: Path, points: Array) -> tuple[Array, tuple[float, float]]:
 
 MIN_PIXELS = 4
 SQUARE = 0.01
-"""How far sides of a pixel may differ before it is reported."""
+"""Relative difference of the sides of a pixel above which it is reported."""
 
 
 def read_text_map(path: Path, encoding: str, channel: str = "") -> Found:
-    """Heights of a text, and what its header states of their unit and of the size.
+    """Read the heights of a text, with the unit and the size that its header states.
 
-    One x per line, as arrays have it, where nothing but comments stands above the numbers; under
-    a header lines run along x, as those of images do. A first line and a first column of places
-    are the axes of the table, whose lines run along x, too.
+    Without a header (except comments) a line has one x, as in arrays; under a header lines run
+    along x, as in images. A first line and a first column of positions are the axes of the table,
+    whose lines also run along x.
 
-    InputError names the line and column of what cannot be read, and a header that states another
-    number of lines or points than there are.
+    InputError names the line and column of what cannot be read, and a header whose numbers of lines
+    or points are wrong.
     """
     tables = tables_of(path, encoding)
     headers = [header_of(table.header) for table in tables]
@@ -133,7 +133,7 @@ def read_text_map(path: Path, encoding: str, channel: str = "") -> Found:
 def _picked(
     path: Path, tables: list[Table], headers: list[Header], wanted: str
 ) -> tuple[Table, Header]:
-    """Table of a channel by name or number; the first one of heights where none is wanted."""
+    """Table of a channel by name or number; without a channel, the first one of heights."""
     names = [header.channel or f"table {n}" for n, header in enumerate(headers, 1)]
     if not any(header.is_informative for header in headers):
         raise InputError(
@@ -155,7 +155,7 @@ def _picked(
 
 
 def _found(path: Path, table: Table, header: Header) -> Found:
-    """Make heights of the numbers of a table."""
+    """Interpret the numbers of a table as heights."""
     if header.is_other:
         raise InputError(
             f"{path}: the values are not in a unit of length by the header; a map of heights was "
@@ -193,7 +193,7 @@ def _without_axes(path: Path, table: Table) -> tuple[Array, Axes | None]:
 
 
 def matrix_map(path: Path, rows: Array) -> Found:
-    """Heights of an array (nx, ny) without a header: without its axes, or of a list of points."""
+    """Interpret an array (nx, ny) without header: a map, perhaps with axes, or a list of points."""
     table = Table([], rows, 1, Cells(BLANKS))
     heights, axes = _without_axes(path, table)
     if is_list(heights) or is_longer_list(path, heights):
@@ -205,7 +205,7 @@ def matrix_map(path: Path, rows: Array) -> Found:
 
 
 def _array(rows: Array, table: Table, header: Header) -> Found:
-    """Heights one x per line, as they are."""
+    """Interpret a table with one x per line and without axes."""
     size: dict[str, float | None] = {"length_x": None, "length_y": None}
     result = Found(rows, header.height_unit, is_array=True)
     for line in table.header:
@@ -217,7 +217,7 @@ def _array(rows: Array, table: Table, header: Header) -> Found:
 
 
 def _points(path: Path, rows: Array, table: Table, header: Header) -> Found:
-    """Heights of a list of the x, y and z of points."""
+    """Interpret a list of the x, y and z of points."""
     columns = header.columns or _units_of_columns(table)
     x, y, z = columns or (header.lateral_unit, header.lateral_unit, header.height_unit)
     known = x is not None and y is not None
@@ -240,7 +240,7 @@ def _points(path: Path, rows: Array, table: Table, header: Header) -> Found:
 
 
 def _units_of_columns(table: Table) -> tuple[float, ...]:
-    """Metres in the units of three columns, from a line above them; empty where it has none."""
+    """Return the units of three columns [m] from a line above them; empty if it has none."""
     for line in reversed(table.header[-3:]):
         cells = [cell.strip() for cell in table.cells.split(line.lstrip("#"))]
         units = [_unit_at_end(cell) for cell in cells[:3]]
@@ -250,16 +250,16 @@ def _units_of_columns(table: Table) -> tuple[float, ...]:
 
 
 def _unit_at_end(cell: str) -> float | None:
-    """Metres in the unit of the heading of a column: 'X [mm]', 'x/mm', 'Z_um', 'mm'."""
+    """Return the unit of a column heading [m]: 'X [mm]', 'x/mm', 'Z_um', 'mm'."""
     word = re.split(r"[\s/_(\[{,]+", cell.strip().rstrip(")]}"))[-1]
     # 'm' alone may be a name
     return unit_of(word)
 
 
 def _check_points(path: Path, table: Table, rows: Array, header: Header) -> bool:
-    """Refuse a table that has not the lines and points that its header states.
+    """Refuse a table whose numbers of lines and points differ from those of its header.
 
-    True if it has, with one x per line: x along the lines is what files of images have.
+    Returns True if it has one x per line; in files of images x runs along the lines.
     """
     lines, columns = rows.shape
     for side, count in enumerate((columns, lines)):
@@ -271,7 +271,7 @@ def _check_points(path: Path, table: Table, rows: Array, header: Header) -> bool
             header.points[side] = count
         elif header.lateral_unit is not None:
             header.size[side] = bare * header.lateral_unit
-    # a height alone may be that of the surface
+    # without a width, the height may be that of the surface
     if header.size[0] is None:
         header.size[1] = None
     x, y = header.points
@@ -291,12 +291,12 @@ def _pitched(shape: tuple[int, ...], header: Header) -> tuple[float | None, floa
 
 
 def _size(result: Found, header: Header, axes: Axes | None) -> None:
-    """Size by the header: its lengths, its pixels, else the axes of the table."""
+    """Set the size from the lengths or pixels of the header, else from the axes of the table."""
     shape = result.heights.shape
     pitched = _pitched(shape, header)
     x, y = (a or b for a, b in zip(header.size, pitched, strict=True))
     for side, (whole, part) in enumerate(zip(header.size, pitched, strict=True)):
-        # a length may be from the first to the last point
+        # a length may be measured from the first to the last point
         if whole and part and abs(whole - part) > 1.5 * part / shape[side]:
             result.notes.append(
                 f"the header states a length of {whole:.6g} m along {'xy'[side]} and pixels of "
