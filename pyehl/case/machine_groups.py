@@ -14,7 +14,7 @@ LENGTH = "0 or [1e-4, 10]"
 
 def diameter(what: str) -> Any:  # noqa: ANN401
     """Describe a diameter whose mean with the other one is the pitch diameter."""
-    return real(0.0, "m", LENGTH, f"{what}, for the pitch diameter alone")
+    return real(0.0, "m", LENGTH, f"{what}, used only for the pitch diameter")
 
 
 def clearance() -> Any:  # noqa: ANN401
@@ -104,7 +104,7 @@ class SpurGear:
     )
     profile_shift_2: float = real(0.0, "-", "[-2, 2]", "profile shift of the wheel over the module")
     centre_distance: float = real(
-        0.0, "m", LENGTH, "centre distance; 0: without backlash by the profile shifts"
+        0.0, "m", LENGTH, "centre distance; 0: from the profile shifts, without backlash"
     )
     tip_diameter_1: float = real(
         0.0, "m", LENGTH, "tip diameter of the pinion; 0: addendum of one module, tips shortened"

@@ -36,8 +36,8 @@ class Surface:
         1.01,
         "-",
         "[0, 2]",
-        "velocity of the rough surface over the mean one; default 1 + SRR/2 on body 1, 1 - SRR/2 "
-        "on body 2",
+        "velocity of the rough surface over the mean velocity; default 1 + SRR/2 on body 1, "
+        "1 - SRR/2 on body 2",
     )
     x_start: float = real(
         -2.5,
@@ -56,7 +56,8 @@ class Surface:
         0.0,
         "a",
         "0 or [0.01, 100]",
-        "length of a single feature; 0: the width of a dent or bump, no end of a ridge or groove",
+        "length of a single feature; 0: the width for a dent or bump, endless for a ridge or "
+        "groove",
     )
     width_m: float = real(
         0.0, "m", "0 or [1e-9, 0.1]", "width of a single feature in metres; 0: width"
@@ -75,7 +76,7 @@ class Surface:
         0.0,
         "a",
         "0 or [0.01, 1000]",
-        "distance after which a feature repeats along a line; 0: 4, or 4 times its size",
+        "distance after which a feature repeats along a line contact; 0: 4, or 4 times its size",
     )
     file: str = path("height map of kind 'map': .npy, text, instrument file")
     channel: str = text("channel of an instrument file: its name, or its number from 1")
@@ -100,9 +101,9 @@ class Surface:
         "the file is a profile: make an isotropic surface of its spectrum, or extend it as ridges",
     )
     crop_x_min: float = real(0.0, "m", "[0, 1]", "start of the map along X")
-    crop_x_max: float = real(0.0, "m", "[0, 1]", "end of the map along this axis; 0: not cropped")
+    crop_x_max: float = real(0.0, "m", "[0, 1]", "end of the map along X; 0: not cropped")
     crop_y_min: float = real(0.0, "m", "[0, 1]", "start of the map along Y")
-    crop_y_max: float = real(0.0, "m", "[0, 1]", "end of the map along this axis; 0: not cropped")
+    crop_y_max: float = real(0.0, "m", "[0, 1]", "end of the map along Y; 0: not cropped")
     sign: int = whole(1, "[-1, 1]", "-1: valleys of the map are positive; 1: peaks are positive")
     outliers: float = real(
         0.0,
@@ -132,7 +133,7 @@ class Surface:
         0.0,
         "m",
         "[-1, 1]",
-        "position across the motion of the line that passes the centre of the contact",
+        "position across the motion of the line through the centre of the contact",
     )
     tile_x: float = real(
         0.0,
@@ -167,7 +168,7 @@ class Surface:
     finish: str = word(
         "none",
         "none|ground|honed|superfinished|polished",
-        "a fractal surface with typical values of those of Ra, spectrum and lay not given",
+        "a fractal surface with typical values of Ra, spectrum and lay unless given",
     )
     lay_ratio: float = real(
         1.0,
