@@ -141,7 +141,7 @@ def test_pressure_of_ridges(root: Path):
     text = plain(folder / "README.md")
     middle = statistics.median(heavy)
     assert f"by {min(heavy):.1f} to {max(heavy):.1f} % (median {middle:.1f} %)" in text
-    assert f"with {min(gains):.1f} to {max(gains):.1f} % of `edge_gain`" in text
+    assert f"`edge_gain` adds {min(gains):.1f} to {max(gains):.1f} %" in text
     assert f"by {min(light):.1f} to {max(light):.1f} % where T < 0.9" in text
     assert f"The other {len(lost)} ridges" in text
-    assert f"ratios from {min(lost):.1f} to {max(lost):.1f}." in text
+    assert f"ratios from {min(lost):.1f} to {max(lost):.1f})." in text
