@@ -14,7 +14,7 @@ import xarray
 import pyehl
 from pyehl import errors
 from pyehl.cli import main
-from pyehl.prediction import simulation
+from pyehl.simulation import initial_condition
 from pyehl.simulation.initial_condition import starting_pressure
 
 POINT = {"contact.moes_m": 1000.0, "contact.moes_l": 10.0}
@@ -99,7 +99,7 @@ def test_every_surface_lies_where_the_prediction_has_it(
         given.append(arguments)
         return starting_pressure(*arguments)
 
-    monkeypatch.setattr(simulation, "starting_pressure", keep)
+    monkeypatch.setattr(initial_condition, "starting_pressure", keep)
     for settings in (
         WAVE,
         tile,
@@ -180,7 +180,7 @@ def test_a_fault_of_the_package_is_no_warning(monkeypatch, fault: type[Exception
     def fails(*_: object) -> None:
         raise fault("wrong")
 
-    monkeypatch.setattr(simulation, "starting_pressure", fails)
+    monkeypatch.setattr(initial_condition, "starting_pressure", fails)
     case = ALONE | WAVE | {"grid.points": 33, "time.start": "prediction"}
     with pytest.raises(fault, match="wrong"):
         pyehl.solve(pyehl.Case.from_text("", case))

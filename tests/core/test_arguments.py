@@ -32,7 +32,7 @@ def quick(cases: Path) -> str:
 CALLS: dict[str, tuple[Callable[[str], Any], str]] = {
     "text None": (lambda q: pyehl.Case.from_text(None), "expected a text, not NoneType"),
     "text bytes": (lambda q: pyehl.Case.from_text(b"&grid /"), "expected a text, not bytes"),
-    "text surrogate": (lambda q: pyehl.Case.from_text("\ud800"), "no text"),
+    "text surrogate": (lambda q: pyehl.Case.from_text("\ud800"), "not a text"),
     "text nonsense": (lambda q: pyehl.Case.from_text("nonsense"), "text outside of a group"),
     "text for a path": (lambda q: pyehl.Case("&grid points = 65 /"), "pyehl.Case.from_text"),
     "case None": (lambda q: pyehl.Case(None), "expected a path, not NoneType"),

@@ -103,7 +103,7 @@ def test_messages(text: str, words: list[str], tmp_path: Path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("height", "words"), [("= 0.1", "4.96E-08 m\n"), ("_over_film = 0.1", "by its share of")]
+    ("height", "words"), [("= 0.1", "4.96E-08 m\n"), ("_over_film = 0.1", "relative to the film")]
 )
 def test_plan_has_the_heights_of_both(height: str, words: str):
     """Shares of the variance are per cents."""

@@ -70,7 +70,7 @@ def test_form_is_that_of_the_points_that_count():
     left = levelled(holed, "tilt", valid)
     assert left[there] == pytest.approx(0.0, abs=1e-20)
     assert left[20, 20] == pytest.approx(1e-3, abs=1e-18)
-    with pytest.raises(ValueError, match="degree 1 cannot be determined"):
+    with pytest.raises(ValueError, match="do not determine a polynomial of degree 1"):
         levelled(np.where(x == x[0, 0], z, np.nan), "tilt")
 
 
@@ -136,7 +136,7 @@ def test_prominence_of_spikes_in_noise():
     assert away[50, 60] == pytest.approx(100.0, rel=0.1)
     assert away[120, 30] == pytest.approx(50.0, rel=0.1)
     assert np.argwhere(away > 8.0).tolist() == [[50, 60], [120, 30]]
-    with pytest.raises(ValueError, match=r"surface\.outliers: half of the map"):
+    with pytest.raises(ValueError, match=r"surface\.outliers: at least half of the map"):
         prominence(np.zeros((20, 20)))
 
 

@@ -337,8 +337,8 @@ def test_mean_and_amplitude_need_a_passage() -> None:
     rough = pyehl.solve(CASES / "dent.nml", "grid.points=33", "output.frame_interval=0")
     below = pyehl.stress(rough, friction="none")
     assert "shear_amplitude" not in below
-    assert "cover 0 a of the way" in below.attrs["cycle_note"]
-    with pytest.raises(pyehl.InputError, match=r"fatigue = 'crossland': the 1 instants.*frame_int"):
+    assert "the surface moves 0 a; mean and amplitude need" in below.attrs["cycle_note"]
+    with pytest.raises(pyehl.InputError, match=r"fatigue = .crossland.: during the 1 .*frame_int"):
         pyehl.stress(rough, fatigue="crossland", torsion_limit=4e8, bending_limit=6.5e8)
 
 

@@ -309,7 +309,7 @@ def test_more_cases_than_fit_into_memory_are_refused(
     monkeypatch.setattr(plan_module.library, "free_bytes", lambda: 3 * plan_module.CASE_BYTES - 1)
     words = [str(cases / "quick.nml"), "--run", "film", "--vary", "surface.seed=1:3"]
     _, refused = sweep(tmp_path / "out", *words, expect=2)
-    assert "3 cases take " in refused
+    assert "3 waiting cases take " in refused
     assert not (tmp_path / "out").exists()
 
 
