@@ -38,13 +38,11 @@ module ehl_anderson
 
 contains
 
-   !> Start mixing with the next cycle; the state before the last cycle, if given, is the start of the history
-   subroutine begin(self, level, status, before)
+   !> Start mixing with the next cycle
+   subroutine begin(self, level, status)
       class(anderson_t), intent(inout) :: self
       type(level_t), intent(in) :: level
       type(status_t), intent(inout) :: status
-      !> Pressure, shape (nx, ny)
-      real(dp), intent(in), optional :: before(:, :)
       integer :: stat
 
       if (self%on .or. status%failed()) return
@@ -57,11 +55,6 @@ contains
       end if
       self%on = .true.
       self%made = 0
-      if (.not. present(before)) return
-      self%f = level%p - before
-      self%g = level%p
-      self%h00_g = level%h00
-      self%made = 1
    end subroutine begin
 
    !> Stop mixing

@@ -12,10 +12,6 @@ submodule (ehl_smooth_contact) ehl_cycle_guard
    !> Cycles stall if the residual decreases by less than this factor; number of cycles before acceleration may begin
    real(dp), parameter :: stalled = 0.6_dp
    integer, parameter :: stalls_after = 5
-   !> The same number for an ellipse whose residual is below this fraction of the tolerance. With a fraction of 1 one of nine
-   !> contacts takes 22 cycles in place of 8 (kappa > 4, L > 20)
-   integer, parameter :: stalls_near = 2
-   real(dp), parameter :: near = 0.2_dp
    !> A cycle is rejected if the residual exceeds that of a solution and increases by this factor. Of five difficult contacts
    !> with L from 17 to 37 all converge with 1.05 and 1.2; with 2 and 4 one ends at the cycle limit (tests/cases/test_machines.py)
    real(dp), parameter :: max_growth = 1.2_dp
@@ -26,11 +22,7 @@ submodule (ehl_smooth_contact) ehl_cycle_guard
 contains
 
    module procedure begin_guard
-      integer :: degree
-
-      degree = 0
-      if (is_ellipse(self) .and. has_coarser(self%results, self%n)) degree = self%guard%first
-      self%guard = guard_t(damping=degree, last_damping=degree, first=degree)
+      self%guard = guard_t()
       call self%mixing%finish()
    end procedure begin_guard
 
@@ -59,7 +51,6 @@ contains
          limit = max_residual
          if (guard%residual_kept > 0.0_dp) limit = max(residual_tolerance, max_growth*guard%residual_kept)
          if (outcome == outcome_running) rejected = self%residual > limit
-         if (.not. (rejected .or. guard%residual_kept > 0.0_dp)) guard%first = guard%damping
          if (.not. rejected) guard%residual_kept = self%residual
          if (rejected) then
             if (self%cycles >= self%max_cycles) return
@@ -108,27 +99,9 @@ contains
             guard%residual_earlier = self%residual
          end if
       end associate
-      if (outcome /= outcome_running .or. .not. self%stall > stalled) return
-      if (.not. rejected .and. may_accelerate_early(self)) then
-         call self%mixing%begin(hierarchy%levels(self%n), status, self%guard%p_before)
-      else if (self%cycles >= stalls_after) then
-         call self%mixing%begin(hierarchy%levels(self%n), status)
-      end if
+      if (outcome /= outcome_running .or. self%cycles < stalls_after) return
+      if (self%stall > stalled) call self%mixing%begin(hierarchy%levels(self%n), status)
    end procedure guard_cycle
-
-   !> Whether cycles of an ellipse are accelerated before the usual number: its residual is that of a solution
-   pure logical function may_accelerate_early(self)
-      class(smooth_contact_t), intent(in) :: self
-
-      may_accelerate_early = is_ellipse(self) .and. self%cycles >= stalls_near .and. self%residual <= near*residual_tolerance
-   end function may_accelerate_early
-
-   !> Whether the contact is an ellipse: no circle, roller or line
-   pure logical function is_ellipse(self)
-      class(smooth_contact_t), intent(in) :: self
-
-      is_ellipse = self%options%guarded .and. .not. (self%options%line .or. self%contact%is_roller())
-   end function is_ellipse
 
    !> Whether to start with a reduced shear-thinning law: a cycle from the Hertz pressure diverged, since the flow factors increase
    !> exponentially with the pressure gradient at its edge

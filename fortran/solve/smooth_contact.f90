@@ -41,8 +41,6 @@ module ehl_smooth_contact
    type :: guard_t
       !> Degree of damping of the next cycle (0: none), of the last rejected cycle, and minimum degree for the rest of the level
       integer :: damping = 0, last_damping = 0, min_damping = 0
-      !> That of the first accepted cycle, with which the next finer grid of an ellipse begins
-      integer :: first = 0
       !> Cycles since the degree was changed
       integer :: cycles_since = 0
       !> State before the last cycle

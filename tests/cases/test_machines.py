@@ -341,21 +341,3 @@ def test_a_flow_that_thins_is_softened_at_first():
 
 def test_kinds_alternate():
     assert [contact.kind for contact in draw(8, 4)] == list(KINDS) * 2
-
-
-@pytest.mark.parametrize(
-    ("seed", "number", "most"),
-    [
-        # accelerated from the third cycle of the finest grid on: 13 cycles, 22 in all, without
-        (12, 33, 16),
-        # the first cycle of three grids fails if it is not damped: 10 cycles in all
-        (1, 55, 9),
-    ],
-)
-def test_cycles_of_hard_wide_contacts(seed: int, number: int, most: int):
-    contact = draw(number + 1, seed)[number]
-    with pyehl.Solver(pyehl.Case.from_text("", contact.values)) as solver:
-        solver.run()
-        summary = solver.summary
-    assert summary["status"] == "converged"
-    assert summary["total_cycles"] <= most
