@@ -133,7 +133,7 @@ def test_limits(states, cases: Path):
     power = np.log(Lubricant().viscosity_ratio(pressure)) + 1e-9
     superscript = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
     say = f"is e{f'{power:.0f}'.translate(superscript)} times that at its edge"
-    states("docs/limits.md", f"scatters by about {100.0 * spread:.0f} % between", say)
+    states("docs/limits.md", f"differs by about {100.0 * spread:.0f} % between", say)
     heavy = {"contact.moes_m": 2000.0, "contact.moes_l": 20.0, "grid.points": 513}
     assert pyehl.solve(pyehl.Case.from_text("", heavy)).attrs["status"] == "converged"
 
