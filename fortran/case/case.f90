@@ -102,7 +102,7 @@ module ehl_case
       real(dp) :: murnaghan_modulus = 0.0_dp, murnaghan_rate = 0.0_dp, murnaghan_softening = 0.0_dp
       real(dp) :: tait_modulus = 0.0_dp, tait_rate = 0.0_dp, tait_softening = 0.0_dp, tait_expansion = 0.0_dp, &
                   tait_temperature = 0.0_dp
-      !> Range of the measurements behind the constants of the laws; all 0: not known
+      !> Range of the measurements from which the constants of the laws follow; all 0: not known
       real(dp) :: range_temperature_min = 0.0_dp, range_temperature_max = 0.0_dp, range_pressure_max = 0.0_dp
       character(len=word_length) :: shear_law = "newtonian"
       character(len=word_length) :: flow = "consistent"

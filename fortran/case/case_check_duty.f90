@@ -135,7 +135,7 @@ contains
          end do
       end subroutine check_period
 
-      !> Refuse a rough surface at rest in the case, whose start is not defined
+      !> Refuse a rough surface at rest in the case: under a duty its position follows from its displacement over velocity_ratio
       subroutine check_surface(group, body)
          character(len=*), intent(in) :: group
          integer, intent(in) :: body

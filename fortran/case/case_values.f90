@@ -151,7 +151,7 @@ contains
       piece%value = value
    end subroutine check_value
 
-   !> Whether reading a number may overflow: over a hundred digits before the point, or over two of a positive exponent
+   !> Whether reading a number may overflow: a hundred or more digits before the point, or three or more of a positive exponent
    pure logical function is_huge(number)
       character(len=*), intent(in) :: number
       integer :: mark

@@ -93,7 +93,8 @@ contains
       end associate
    end subroutine report_touching
 
-   !> Why friction is not known; reason_none if there is no solid contact, or if the boundary friction is known
+   !> Why friction is not known; reason_none without solid contact, or if the grid resolves the inlet and the boundary friction is
+   !> known
    integer function why_no_friction(run, converged) result(why)
       type(contact_run_t), intent(in) :: run
       logical, intent(in) :: converged

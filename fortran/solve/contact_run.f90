@@ -200,7 +200,8 @@ contains
       end associate
    end subroutine record_cycle
 
-   !> Record a cycle with stationary roughness. If the other surface moves, only a failure is recorded.
+   !> Record a cycle with stationary roughness. If the other surface moves, time steps follow: then no row is added to the history,
+   !> and the run has not yet converged.
    subroutine record_rough_cycle(self, outcome, seconds, status)
       class(contact_run_t), intent(inout) :: self
       !> Status of the contact with all of the roughness

@@ -14,7 +14,7 @@ contains
    module procedure begin_steps
       real(dp) :: errors(2)
 
-      ! friction has nearly the relative error of the film: 20 and 19 % (line, M = 100, L = 10, 257 nodes)
+      ! friction is nearly inverse to the film, and has its relative error: 20 and 19 % (line, M = 100, L = 10, 257 nodes)
       errors = 0.0_dp
       if (self%plan%line) errors = relative_errors(self%plan%contact, self%plan%point, self%grid%hx)
       associate (plan => self%plan, transient => self%transient, n => self%smooth%n, m => self%smooth%results(self%smooth%n)%m)

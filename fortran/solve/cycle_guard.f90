@@ -9,7 +9,7 @@ submodule (ehl_smooth_contact) ehl_cycle_guard
 
    !> Cycles after which the damping is reduced, and cycles within which the residual must halve
    integer, parameter :: undamped_after = 3, patience = 8
-   !> Cycles stall if the residual decreases by less than this factor; number of cycles before acceleration may begin
+   !> Cycles stall if one leaves more than this fraction of the residual; number of cycles on a level before acceleration may begin
    real(dp), parameter :: stalled = 0.6_dp
    integer, parameter :: stalls_after = 5
    !> A cycle is rejected if the residual exceeds that of a solution and increases by this factor. Of five difficult contacts

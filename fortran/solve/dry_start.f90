@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> First approximation of a contact whose dry pressure has no formula: conjugate gradients on the nodes in contact with the load
-!> as a constraint (Polonsky & Keer 1999, Wear 231, 206)
+!> First approximation of a contact whose dry pressure has no formula: conjugate gradients on the nodes in contact, an active
+!> set, with the load as a constraint (Polonsky & Keer 1999, Wear 231, 206)
 module ehl_dry_start
    use ehl_cycle, only: refine
    use ehl_grid, only: grid_t

@@ -20,7 +20,7 @@ module ehl_stationary_state
    private
    public :: stationary_t
 
-   !> Algebraic error of the friction integral over the required accuracy; relative error allowed at an intermediate fraction of
+   !> Relative algebraic error of the friction integral over the required accuracy; that allowed at an intermediate fraction of
    !> the roughness
    real(dp), parameter :: friction_tolerance = 1.0e-3_dp, fraction_tolerance = 3.0e-2_dp
    !> Largest relative error of the force balance that scaling the pressure may correct at a boundary film

@@ -17,7 +17,7 @@ contains
 
       associate (level => hierarchy%levels(self%n))
          self%time_step = self%duty_steps%next(self%duty, self%time, level%grid%hx, surfaces%rough())
-         ! before the surfaces start to move no step is solved
+         ! while the conditions are those of the case no step is solved: it extends to the next row of the table
          associate (row => self%duty%next_knot(self%time))
             if (self%duty%rests(row(1))) self%time_step = row(1) - self%time
          end associate

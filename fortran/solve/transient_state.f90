@@ -140,7 +140,7 @@ module ehl_transient_state
          type(level_t), intent(inout) :: level
       end subroutine end_duty
 
-      !> Whether nothing moves until the end of the step, so that the contact remains steady
+      !> Whether the conditions are those of the case until the end of the step, so that the contact remains steady
       pure module function rests(self)
          class(transient_t), intent(in) :: self
          logical :: rests

@@ -42,10 +42,10 @@ contains
       error = abs(fine%films() - coarse%films())/3.0_dp
    end function discretisation_error
 
-   !> Stated discretisation errors of H_c and H_min on level n, with safety factors. The order is between 1 and 2: from three
-   !> grids or, from two, reduced for errors above `max_second_order`. The difference of H_min, whose node changes, may be small by
-   !> chance: its error is at least that of the coarser pair. With solid contact the third grid counts only if it resolves
-   !> the inlet, and the errors are at least that of the fine grid in the inlet.
+   !> Stated discretisation errors of H_c and H_min on level n, with safety factors. The order, from 1 to 2, is the smaller of that
+   !> from three grids and that from two, reduced for errors above `max_second_order`. The difference of H_min, whose node changes,
+   !> may be small by chance: its error is at least a quarter of that of the coarser pair, as for order 2. With solid contact the
+   !> third grid counts only if it resolves the inlet, and the errors are at least that of the fine grid in the inlet.
    pure function stated_errors(fine, results, n, inlet) result(errors)
       !> Results on level n, and on the coarser levels
       type(contact_results_t), intent(in) :: fine

@@ -34,7 +34,7 @@ module ehl_steady_options
       real(dp) :: replenishment = 0.0_dp
       !> Whether a failure on the finest level may restart with damped cycles
       logical :: may_restart = .false.
-      !> Whether failed cycles are rejected from the start, and not only after the other restarts
+      !> Whether failed cycles are rejected from the start, and not only after a failure on the finest grid
       logical :: guarded = .false.
       !> Grid errors in the inlet with solid contact
       type(inlet_t) :: inlet

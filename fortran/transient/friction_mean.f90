@@ -215,7 +215,7 @@ contains
    end function first_of_mean
 
    !> Largest difference between the last mean and the earlier ones; of a mean over many periods half of the largest difference to
-   !> the means over its first, middle and last half
+   !> the means over its first, middle and last half, since the error decreases with the length of the mean
    pure real(dp) function change(self)
       class(friction_mean_t), intent(in) :: self
       real(dp) :: length, last, half
@@ -243,7 +243,7 @@ contains
    end function uncertainty
 
    !> Whether the relative change of the mean is within the tolerance. The scale is the mean, or over many periods, with peaks far
-   !> above the mean, the largest value. Without a common period the error of the window is added.
+   !> above the mean, the largest value. Without a common period the error of the window is added to the tolerance.
    pure logical function settled(self, tolerance)
       class(friction_mean_t), intent(in) :: self
       real(dp), intent(in) :: tolerance

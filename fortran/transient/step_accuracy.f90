@@ -2,7 +2,8 @@
 !> Tolerance of the time steps: their algebraic error changes mu_r/mu_s by less than a fraction of its grid error (docs/design.md).
 !> Both errors are estimated during the run from the Newtonian friction, which is most sensitive to the pressure, also with a
 !> shear-thinning law. Steps of more than one cycle show the change of mu_r/mu_s due to the residual after the first cycle. The grid
-!> error of mu_r/mu_s is at least a fraction of its increase above 1, times the relative grid error of the smooth friction.
+!> error of mu_r/mu_s is assumed to be at least a fraction of its increase above 1, times the relative grid error of the smooth
+!> friction.
 module ehl_step_accuracy
    use ehl_kinds, only: dp
    implicit none (type, external)

@@ -23,7 +23,7 @@ module ehl_step_policy
    !> Cycles in which the residual must halve, by attempt. The last attempt starts at the cycle limit at the latest, and ends at
    !> `damped_cycles` times the limit.
    integer, parameter :: patience(3) = [4, 8, 8], damped_cycles = 10
-   !> A cycle that reduces the residual by less than this factor is slow, unless another one would meet the tolerance
+   !> A cycle that leaves more than this fraction of the residual is slow, unless another such cycle would meet the tolerance
    real(dp), parameter :: slow = 0.25_dp
    !> Residual over the tolerance up to which a predicted pressure is smooth enough to need no pre-relaxation
    real(dp), parameter :: smooth_ratio = 8.0_dp
