@@ -81,8 +81,8 @@ contains
       associate (over_b => input%contact%length/scales%length)
          if (over_b >= min_length .and. over_b <= max_length) return
          call source%refuse("contact.length", "contact.length is "//short(over_b)//" b, b = "//short(scales%length)//" m", &
-                            "4 to 400 b: longer ones are lines, contact.shape = 'line', but for their ends; shorter ones points", &
-                            status)
+                            "4 to 400 b: longer ones are lines, contact.shape = 'line', except at their ends; "// &
+                            "shorter ones are points", status)
       end associate
    end subroutine check_length
 

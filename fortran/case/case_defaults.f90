@@ -206,7 +206,7 @@ contains
       n = size(l%table_viscosity)
       if (n == 0) return
       if (size(l%table_temperature) /= n .or. size(l%table_pressure) /= n) then
-         why = "with different numbers of temperatures and pressures"
+         why = "without a temperature and a pressure for each viscosity"
          return
       end if
       allocate (l%isotherms(0))
@@ -219,7 +219,7 @@ contains
          end do
          associate (p => l%table_pressure(first:last), eta => l%table_viscosity(first:last))
             if (first == last .or. any(p(2:) <= p(:last - first)) .or. any([eta(2:) - eta(:last - first), eta(1)] <= 0.0_dp)) then
-               why = "that does not increase with two or more pressures at each temperature"
+               why = "without two or more increasing pressures, with increasing viscosities, at each temperature"
                return
             end if
             l%isotherms = [l%isotherms, new_isotherm(l%table_temperature(first) + zero_celsius, p, eta)]
@@ -227,7 +227,7 @@ contains
          first = last + 1
       end do
       if (any(l%isotherms(2:)%temperature <= l%isotherms(:size(l%isotherms) - 1)%temperature)) then
-        why = "that is not sorted by temperature"
+         why = "that is not sorted by increasing temperature"
       end if
    end subroutine make_isotherms
 

@@ -124,8 +124,8 @@ def check_length(draft: Draft) -> None:
     if not LENGTHS[0] <= c.length / width <= LENGTHS[1]:
         what = f"contact.length is {short(c.length / width)} b, b = {short(width)} m"
         expected = (
-            "4 to 400 b: longer ones are lines, contact.shape = 'line', but for their ends; "
-            "shorter ones points"
+            "4 to 400 b: longer ones are lines, contact.shape = 'line', except at their ends; "
+            "shorter ones are points"
         )
         draft.refuse("contact.length", what, expected)
 
