@@ -24,7 +24,7 @@ module ehl_plan_heat
    real(dp), parameter :: min_change = 1.0e-3_dp
 
    !> Boundary film over the central film by formula above which a smooth contact may have solid contact
-   real(dp), parameter :: min_boundary_film = 0.5_dp
+   real(dp), parameter :: min_boundary_ratio = 0.5_dp
 
    !> Frictional heating of a contact
    type :: heat_plan_t
@@ -117,7 +117,7 @@ contains
    pure logical function may_have_solid_contact(lubricant, film)
       type(lubricant_t), intent(in) :: lubricant
       real(dp), intent(in) :: film
-      may_have_solid_contact = lubricant%boundary_film > min_boundary_film*film
+      may_have_solid_contact = lubricant%boundary_film > min_boundary_ratio*film
    end function may_have_solid_contact
 
    !> Heating and lubricant of a case whose pressure and film are known

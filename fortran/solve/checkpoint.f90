@@ -110,7 +110,7 @@ contains
          write (lun, iostat=stat, iomsg=reason) magic, t%step, frames%n, len(text), text, &
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
-            t%accuracy%increase, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, mean%filled, &
+            t%accuracy%mean_square, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, mean%filled, &
             mean%lag, mean%transit, t%duty_steps%pack(), t%duty_error%films, t%duty_error%error, t%film_errors, &
             seconds, coarse%ratio, real(coarse%outcome, dp), coarse%load_share, &
             len(first), first, len(second), second, &
@@ -204,7 +204,7 @@ contains
          if (stat == 0) read (lun, iostat=stat, iomsg=reason) &
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
-            t%accuracy%increase, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, t%mean%filled, &
+            t%accuracy%mean_square, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, t%mean%filled, &
             t%mean%lag, t%mean%transit, numbers, t%duty_error%films, t%duty_error%error, t%film_errors, seconds, &
             coarse%ratio, outcome, coarse%load_share
          if (stat == 0) call t%duty_steps%unpack(numbers)

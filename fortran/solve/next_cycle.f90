@@ -19,8 +19,8 @@ submodule (ehl_smooth_contact) ehl_next_cycle
    real(dp), parameter :: reduced_error = 3.0e-4_dp
    !> The value of `near_solution` in the last attempt at a wide contact
    real(dp), parameter :: near_solution_wide = 0.5_dp
-   !> Few cycles of a level that started from a coarser one, and from the Hertz pressure
-   integer, parameter :: min_cycles = 2, cycles_from_guess = 3
+   !> Largest numbers that count as few cycles: of a level that started from a coarser one, and from the Hertz pressure
+   integer, parameter :: max_from_coarser = 2, max_from_hertz = 3
 
 contains
 
@@ -75,6 +75,6 @@ contains
       options = self%options%second_cycle
       first = self%n == 2
       if (.not. first) first = .not. self%results(self%n - 2)%solved
-      if (self%results(self%n - 1)%cycles <= merge(cycles_from_guess, min_cycles, first)) options%pre = options%pre - 1
+      if (self%results(self%n - 1)%cycles <= merge(max_from_hertz, max_from_coarser, first)) options%pre = options%pre - 1
    end function cycle_options
 end submodule ehl_next_cycle

@@ -125,7 +125,7 @@ contains
 
    module procedure heights_of
       if (surfaces%rough()) then
-         call surfaces%roughness(level%grid, 0.0_dp, rr, ways=state%displacements)
+         call surfaces%roughness(level%grid, 0.0_dp, rr, displacements=state%displacements)
       else
          rr = 0.0_dp
       end if

@@ -235,7 +235,7 @@ contains
    end subroutine reclaim
 
    !> rr(nx, ny): sum of the heights at the nodes, at time T [a^2/R]
-   subroutine roughness(self, grid, time, rr, moving, ways)
+   subroutine roughness(self, grid, time, rr, moving, displacements)
       class(rough_surfaces_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: time
@@ -243,7 +243,7 @@ contains
       !> Only the moving (true) or the stationary (false) surfaces, at least one
       logical, intent(in), optional :: moving
       !> Displacements of body 1 and of body 2, in place of the time
-      real(dp), intent(in), optional :: ways(2)
+      real(dp), intent(in), optional :: displacements(2)
       logical :: wanted(self%count())
       integer :: k, first
 
@@ -263,7 +263,7 @@ contains
       pure real(dp) function time_of(k)
          integer, intent(in) :: k
          time_of = time
-         if (present(ways)) time_of = ways(self%of(k)%body)/self%of(k)%surface%velocity_ratio
+         if (present(displacements)) time_of = displacements(self%of(k)%body)/self%of(k)%surface%velocity_ratio
       end function time_of
    end subroutine roughness
 

@@ -80,7 +80,7 @@ contains
    pure subroutine setup(self)
       class(duty_t), intent(inout) :: self
       integer :: n, k
-      real(dp) :: before, behind
+      real(dp) :: before, after
 
       n = size(self%time)
       self%active = .true.
@@ -90,12 +90,12 @@ contains
             ! slope of the parabola through a row and its neighbours
             if (k > 1 .and. k < n) then
                before = self%time(k) - self%time(k - 1)
-               behind = self%time(k + 1) - self%time(k)
-               self%slopes(k, :) = parabola(self%values(k - 1, :), self%values(k, :), self%values(k + 1, :), before, behind)
+               after = self%time(k + 1) - self%time(k)
+               self%slopes(k, :) = parabola(self%values(k - 1, :), self%values(k, :), self%values(k + 1, :), before, after)
             else if (self%periodic) then
                before = self%time(n) - self%time(n - 1)
-               behind = self%time(2) - self%time(1)
-               self%slopes(k, :) = parabola(self%values(n - 1, :), self%values(1, :), self%values(2, :), before, behind)
+               after = self%time(2) - self%time(1)
+               self%slopes(k, :) = parabola(self%values(n - 1, :), self%values(1, :), self%values(2, :), before, after)
             end if
          end do
          if (.not. self%periodic) then
@@ -127,36 +127,37 @@ contains
    end function rests
 
    !> Slope of a parabola at the middle of three rows
-   elemental real(dp) function parabola(a, b, c, before, behind)
-      real(dp), intent(in) :: a, b, c, before, behind
-      parabola = ((b - a)/before*behind + (c - b)/behind*before)/(before + behind)
+   elemental real(dp) function parabola(a, b, c, before, after)
+      real(dp), intent(in) :: a, b, c, before, after
+      parabola = ((b - a)/before*after + (c - b)/after*before)/(before + after)
    end function parabola
 
    !> Displacements of the surfaces in a time after row k
-   pure function displacement_from(self, k, time) result(way)
+   pure function displacement_from(self, k, time) result(displacement)
       class(duty_t), intent(in) :: self
       integer, intent(in) :: k
       real(dp), intent(in) :: time
-      real(dp) :: way(2), s, step
+      real(dp) :: displacement(2), s, step
 
       step = self%time(k + 1) - self%time(k)
       s = time/step
       associate (a => self%values(k, duty_u1:duty_u2), b => self%values(k + 1, duty_u1:duty_u2))
          if (self%cubic) then
             associate (c => step*self%slopes(k, duty_u1:duty_u2), d => step*self%slopes(k + 1, duty_u1:duty_u2))
-               way = step*s*(a + s*(0.5_dp*c + s*((3.0_dp*(b - a) - 2.0_dp*c - d)/3.0_dp + s*(2.0_dp*(a - b) + c + d)/4.0_dp)))
+               displacement = step*s*(a + s*(0.5_dp*c + s*((3.0_dp*(b - a) - 2.0_dp*c - d)/3.0_dp &
+                                                           + s*(2.0_dp*(a - b) + c + d)/4.0_dp)))
             end associate
          else
-            way = step*s*(a + 0.5_dp*s*(b - a))
+            displacement = step*s*(a + 0.5_dp*s*(b - a))
          end if
       end associate
    end function displacement_from
 
    !> Values and displacements interpolated at a time within the table
-   pure subroutine raw(self, time, values, way)
+   pure subroutine raw(self, time, values, displacement)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: time
-      real(dp), intent(out) :: values(quantities), way(2)
+      real(dp), intent(out) :: values(quantities), displacement(2)
       real(dp) :: s, step
       integer :: k, low, high
 
@@ -182,7 +183,7 @@ contains
             values = a + s*(b - a)
          end if
       end associate
-      way = self%displacement(k, :) + displacement_from(self, k, time - self%time(k))
+      displacement = self%displacement(k, :) + displacement_from(self, k, time - self%time(k))
    end subroutine raw
 
    !> Conditions at a time; before the table they change linearly from the case to the first row

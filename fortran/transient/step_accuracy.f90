@@ -31,7 +31,7 @@ module ehl_step_accuracy
       !> Allowed error of mu_r/mu_s over its increase; 0: not known
       real(dp) :: allowed = 0.0_dp
       !> Mean square of mu_r/mu_s - 1, with Newtonian friction
-      real(dp) :: increase = 0.0_dp
+      real(dp) :: mean_square = 0.0_dp
       !> Change of mu_r/mu_s per residual; 0: not known
       real(dp) :: sensitivity = 0.0_dp
       !> Largest tolerance so far
@@ -64,7 +64,7 @@ contains
       self%strict = step_tolerance(mesh, accuracy)
       self%friction_smooth = friction_smooth
       self%allowed = accuracy*min_error_fraction*friction_error
-      self%increase = 0.0_dp
+      self%mean_square = 0.0_dp
       self%sensitivity = 0.0_dp
       self%largest = self%strict
    end subroutine set
@@ -78,7 +78,7 @@ contains
 
       tolerance = self%strict
       if (.not. self%sensitivity > 0.0_dp) return
-      increase = sqrt(self%increase)
+      increase = sqrt(self%mean_square)
       if (.not. in_mean) increase = max(increase, min_increase)
       tolerance = min(max(self%strict, self%allowed*increase/self%sensitivity), max_tolerance_ratio*self%strict)
       self%largest = max(self%largest, tolerance)
@@ -107,6 +107,6 @@ contains
       class(step_accuracy_t), intent(inout) :: self
       real(dp), intent(in) :: friction
 
-      self%increase = self%increase + ((friction/self%friction_smooth - 1.0_dp)**2 - self%increase)/averaging_steps
+      self%mean_square = self%mean_square + ((friction/self%friction_smooth - 1.0_dp)**2 - self%mean_square)/averaging_steps
    end subroutine follow
 end module ehl_step_accuracy
