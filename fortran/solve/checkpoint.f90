@@ -23,7 +23,7 @@ module ehl_checkpoint
    character(len=*), parameter :: state_files(2) = ["checkpoint.a", "checkpoint.b"], frame_file = "checkpoint.frame-", &
       coarser = "coarser-"
    !> First bytes of a state: `family` and the version of the format
-   character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"16"
+   character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"17"
    !> Codes of a file without a valid state; otherwise its code is the step
    integer, parameter :: missing = -1, damaged = -2, other_version = -3
 
