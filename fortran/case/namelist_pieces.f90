@@ -67,12 +67,12 @@ contains
          call take(next, k)
          select case (token%kind)
          case ("e")
-            if (group /= "") call refuse("&"//group//" has no end", "'/' behind its last key")
+            if (group /= "") call refuse("&"//group//" has no end", "'/' after its last key")
             exit
          case ("c")
             if (n > 0) pieces(n)%marked = pieces(n)%marked .or. is_marked(text(token%first:token%last))
          case ("&")
-            if (group /= "") call refuse("&"//group//" has no end before the next group", "'/' behind its last key")
+            if (group /= "") call refuse("&"//group//" has no end before the next group", "'/' after its last key")
             group = lower_case(text(token%first + 1:token%last))
             if (any(pieces(:n)%group == group)) call refuse("&"//group//" is given twice", "every group once")
             if (group == "") call refuse("a group without a name", "&contact, for one")
@@ -150,7 +150,7 @@ contains
       function last_key() result(words)
          character(len=:), allocatable :: words
          words = ""
-         if (has_key()) words = ", behind "//pieces(n)%name()
+         if (has_key()) words = ", after "//pieces(n)%name()
       end function last_key
 
       !> Whether values can belong to a previous piece
