@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Locks between all threads of a process, those of OpenMP and others, by POSIX mutexes
+!> Locks between all threads of a process, those of OpenMP and others, also in a build without OpenMP: POSIX mutexes
 module ehl_lock
    use, intrinsic :: iso_c_binding, only: c_int, c_int64_t
    use ehl_status, only: ehl_internal, status_t

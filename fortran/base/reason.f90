@@ -24,8 +24,9 @@ module ehl_reason
    integer, parameter :: reason_coarser_none = 8, reason_coarser_inlet = 9, reason_much_mass_defect = 10
    !> Missing friction: the boundary friction is not given
    integer, parameter :: reason_boundary_friction = 11
-   !> Missing grid error of the friction ratio, because of the run on the next coarser grid: off by time.estimate_error; time.steps;
-   !> not finished; that grid resolves none of the roughness; no such grid; different status; or no grid limit from both runs
+   !> Missing grid error of the friction ratio, because of the run on the next coarser grid: switched off by time.estimate_error;
+   !> time.steps; not finished; that grid resolves none of the roughness; no such grid; different status; pressures that change too
+   !> much from grid to grid
    integer, parameter :: reason_not_wanted = 12, reason_steps = 13, reason_not_yet = 14, reason_nothing_carried = 15, &
                          reason_small_grid = 16, reason_coarser_status = 17, reason_pressures = 18
    !> Other missing parts of that error: no ratio; a mean over few relative positions of two surfaces; omitted waves that were not

@@ -9,7 +9,7 @@ module ehl_record
    public :: record_t, kind_real, kind_integer, kind_logical, kind_code, kind_detail, kind_text, kind_list, kind_note
 
    !> Kind of a value: a result (first three); the code of a status or a reason (ehl_reason); a number in the text of a reason; a
-   !> text; a list of texts in JSON; a text in that of a reason
+   !> text; a list of texts in JSON; a text within the text of a reason
    integer, parameter :: kind_real = 1, kind_integer = 2, kind_logical = 3, kind_code = 4, kind_detail = 5, kind_text = 6, &
                          kind_list = 7, kind_note = 8
 
@@ -118,7 +118,7 @@ contains
       call self%put(name, kind_detail, value)
    end subroutine set_detail
 
-   !> Set a text in that of a reason, which is not written to JSON
+   !> Set a text within the text of a reason, which is not written to JSON
    subroutine set_note(self, name, text)
       class(record_t), intent(inout) :: self
       character(len=*), intent(in) :: name

@@ -27,7 +27,7 @@ module ehl_streams
 contains
 
    !> Refuse a closed standard output: the first file that is opened would receive what is printed. Closed standard input and
-   !> error are redirected to nowhere.
+   !> error are opened on /dev/null.
    subroutine guard_streams(status)
       type(status_t), intent(inout) :: status
       integer(c_int), parameter :: to_read_and_write = 2

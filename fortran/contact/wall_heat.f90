@@ -117,7 +117,7 @@ contains
       class(wall_heat_t), intent(in) :: self
       integer, intent(in) :: wall, first, last, i
       real(dp), contiguous, intent(in) :: heat(:)
-      !> Partial sums, for vectorisation
+      !> Several partial sums, whose additions do not depend on each other
       real(dp) :: parts(side_by_side)
       integer :: shift, k, rest
 

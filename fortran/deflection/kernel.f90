@@ -89,7 +89,7 @@ contains
 
    !> Coefficients of all rows of a strip by their distance: each is the sum over a cell and its periodic images; the sum of all
    !> rows is the logarithm of row_coefficient, which fixes their mean. Far images are summed by the inverse midpoint rule,
-   !> sum f(m) = int f dm + f'/24 at the ends, without terms that are constant over the rows.
+   !> sum f(m) = int f dm + f'/24 at its beginning, midway between two images, without terms that are constant over the rows.
    pure function strip_column(grid, factor, di) result(around)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor

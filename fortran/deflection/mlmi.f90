@@ -11,7 +11,8 @@
 !>
 !> Transfer order and patch size follow from the accuracy required, relative to the largest W, for max W about max P as in a
 !> contact of the Hertz radius. Neglected corrections add up, in magnitude, to 2.5 times the accuracy on the finest grid, and
-!> to 2^(-1/2) times that on each coarser one, where corrections cost less; their signs differ. Measurements: docs/design.md.
+!> their effect to 2^(-1/2) times that on each next coarser grid, where corrections cost less; their signs differ.
+!> Measurements: docs/design.md.
 ! Rows are passed by their first element
 ! allow(assumed-size)
 module ehl_mlmi

@@ -35,13 +35,13 @@ module ehl_workspace
       !> 1 where a node changes distributively in the present sweep, else 0; changes of pressure at these nodes
       real(dp), allocatable :: dipole(:, :), change(:, :)
       !> For time steps only: the weight with which the smooth part of a node's change is removed, the weighted
-      !> changes of a sweep, and their mean along one axis
+      !> changes of a sweep, and their mean along X
       real(dp), allocatable :: smoothing_weight(:, :), raw_change(:, :), mean_change(:, :)
       !> A distributive change lowers the pressure of the adjacent nodes along X and along Y by these fractions of it.
       !> On cells that are longer along Y the neighbours along Y receive less: with a quarter each the deflection would
       !> decay slowly along X. On long cells the weights are proportional to 1/h^2, so that the second moments along X and
       !> Y are equal as on square cells (docs/theory/relaxation.md); on nearly square cells, where either works, to 1/h.
-      !> Measured for hy/hx of 1/4, 1, 1.41, 2, 2.8 and 4.
+      !> Measured for hy/hx of 1/4, 1.41, 2, 2.8 and 4.
       real(dp) :: dipole_weights(2) = 0.25_dp
       !> Kernel near the source: of a point change, and of a distributive (dipole) change
       real(dp) :: near(-near_reach:near_reach) = 0.0_dp, near_dipole(-near_reach:near_reach) = 0.0_dp

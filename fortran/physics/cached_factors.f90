@@ -22,7 +22,7 @@ module ehl_cached_factors
    !> B of a node without factors, different from any B >= 0: all nodes of a segment have factors, or none
    real(dp), parameter :: none = -1.0_dp
    !> Cached values of a node: B, S, phi and the stress; and in single precision, because memory bandwidth limits the speed,
-   !> derivatives of phi and of the stress: of ln(phi) with respect to ln(B), of ln(phi_x) and ln(phi_y) to S_x and S_y
+   !> derivatives of phi and of the stress: those of ln(phi_x) and ln(phi_y) with respect to ln(B), to S_x and to S_y
    integer, parameter :: f_b = 1, f_s = 2, f_phi = 4, f_stress = 6, fields = 6
    integer, parameter :: c_by_sliding = 1, c_by_x = 3, c_by_y = 5, c_tangent = 7, c_stress_by_sliding = 9, &
                          c_stress_by_gradient = 10, change_fields = 11

@@ -106,7 +106,7 @@ contains
       class(shear_law_t), intent(in) :: self
       !> Newtonian film [a^2/R]; lambda_bar = 12 eta0 u/(a^2/R) over gradient_scale
       real(dp), intent(in) :: newtonian, speed_parameter
-      !> Number of fixed-point steps; each reduces the change of the film by a factor of less than 0.7
+      !> Number of fixed-point steps; each changes the film by less than 0.7 of the change before
       integer, parameter :: steps = 30
       real(dp), parameter :: inlet_viscosity = exp(1.0_dp)
       type(thinning_t) :: thinning

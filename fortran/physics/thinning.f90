@@ -19,7 +19,7 @@ module ehl_thinning
    integer, parameter :: eyring = 1, carreau = 2
    !> Below this stress the Eyring law is evaluated as a series
    real(dp), parameter :: series_below = 0.5_dp
-   !> Maximum number of steps of an iteration; error before the last step, whose error is the cube of it
+   !> Maximum number of steps of an iteration; error below which one last step follows, which leaves the cube of it
    integer, parameter :: max_steps = 50
    real(dp), parameter :: enough = 1.0e-4_dp
    !> Maximum number of films evaluated at once
@@ -58,7 +58,7 @@ contains
             slope(i) = 2.0_dp*m*f(i)/x
          end do
       else
-         ! here and below: sums with weights of 0 and 1, because compilers would branch at a `merge`
+         ! here and below: sums with weights of 0 and 1, because compilers would branch at a `merge` of the formulas
          near(:size(square)) = merge(1.0_dp, 0.0_dp, square < series_below**2)
          do i = 1, size(square)
             x = max(square(i), series_below**2)

@@ -80,8 +80,8 @@ contains
       flow%imbalance = (flow%enters - flow%leaves - flow%sides - flow%gain)/max(flow%enters, sum(min_flow), tiny(1.0_dp))
    end function measure_flow
 
-   !> Column whose east face oil leaves through. In time steps it is as far from the outlet border as the face of entry from the
-   !> inlet border, so that a reversal of the motion does not change the oil between them.
+   !> Column through whose east face the oil leaves. In time steps this face is as far from the outlet border as the face of entry
+   !> from the inlet border, so that a reversal of the motion does not change the oil between them.
    pure integer function last_counted(level)
       type(level_t), intent(in) :: level
       last_counted = level%grid%nx - merge(2, 1, level%wedge%squeeze > 0.0_dp)

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Self-affine surfaces with random phases: C2D proportional to max(|q|, q_r)^(-2 - 2 Hurst) up to the Nyquist
-!> wavenumbers of the tile, zero at q = 0; zero mean, exact rms height, periodic. The phases are the raw words
-!> of PCG64, component by component (q_x slowest): a seed defines the same surface in every program.
+!> wavenumbers of the tile, zero at q = 0; zero mean, exact rms height, periodic. The phases come from the raw
+!> words of PCG64, component by component (q_x slowest): a seed defines the same surface in every program.
 module ehl_fractal
    use, intrinsic :: iso_c_binding, only: c_double_complex
    use, intrinsic :: iso_fortran_env, only: int32

@@ -11,8 +11,8 @@ module ehl_moving_surfaces
    real(dp), parameter :: same = 1.0e-9_dp
    !> Without a common period: desired and maximum mismatch of the surfaces after the averaging time, as a fraction of a period
    real(dp), parameter :: good_mismatch = 0.02_dp, max_mismatch = 0.25_dp
-   !> Minimum number of relative positions: with n periods of one surface and m of the other, without a common
-   !> factor, the mean includes all products of their waves except those of order n + m
+   !> Minimum number of relative positions: n periods of one surface and m of the other, without a common factor,
+   !> give the mean of all products of their waves except those of order n + m
    integer, parameter :: min_positions = 5
    !> Longest common period, in periods of the slowest surface, that a message names
    integer, parameter :: max_named = 10000

@@ -83,7 +83,7 @@ contains
       end do
    end subroutine add_free
 
-   !> Row modulo the number of rows; without a division for a row just outside
+   !> Row modulo the number of rows; without a division for a row from -count to count - 1
    pure integer function wrapped(row, count)
       integer, intent(in) :: row, count
 
