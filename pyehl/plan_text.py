@@ -132,9 +132,9 @@ def _surfaces(v: Values, settings: Settings) -> Iterator[str]:
     for member in members:
         label = f"&{member['group']}: " if count > 1 else ""
         yield f"problem    {label}{_surface(v, member, settings)}"
-    if count > 1 and v["move"] and not (v["some_rest"] or v["pass_once"] or v["duty"]):
+    if count > 1 and v["move"] and not (v["some_stationary"] or v["pass_once"] or v["duty"]):
         yield INDENT + _common_period(v)
-    if v["some_rest"]:
+    if v["some_stationary"]:
         yield f"{INDENT}the smooth contact is solved before, then the one with what is at rest"
     else:
         yield f"{INDENT}the smooth contact is solved once, before"
@@ -203,7 +203,7 @@ def _surface(v: Values, s: Values, settings: Settings) -> str:
 
 def _common_period(v: Values) -> str:
     """State the common period of both surfaces."""
-    if not v["meets"]:
+    if not v["enough_positions"]:
         return few_positions(v["repeats"], v["whole_periods"])
     period = f"{fixed(v['period'], 4)} a/u"
     if v["mismatch"] > 0.0:

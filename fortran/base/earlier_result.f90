@@ -47,8 +47,8 @@ contains
    end subroutine read_result
 
    !> The part of a text between two other texts; empty if they are not found
-   pure function between(text, before, behind) result(part)
-      character(len=*), intent(in) :: text, before, behind
+   pure function between(text, before, after) result(part)
+      character(len=*), intent(in) :: text, before, after
       character(len=:), allocatable :: part
       integer :: first
 
@@ -56,7 +56,7 @@ contains
       first = index(text, before)
       if (first == 0) return
       part = text(first + len(before):)
-      part = part(:max(0, index(part, behind) - 1))
+      part = part(:max(0, index(part, after) - 1))
    end function between
 
    !> Whether a file may be replaced with the result: it is one of its files, or derived from it

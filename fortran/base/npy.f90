@@ -71,17 +71,17 @@ contains
    end function header
 
    !> Header and numbers; machines with the other byte order are not supported
-   subroutine write_values(path, head, values, status, behind)
+   subroutine write_values(path, head, values, status, further)
       character(len=*), intent(in) :: path, head
       real(dp), intent(in) :: values(:, :)
       type(status_t), intent(inout) :: status
       !> Further matrices of the same shape
-      type(matrix_t), intent(in), optional :: behind(:)
+      type(matrix_t), intent(in), optional :: further(:)
       character(len=256) :: reason
       integer :: lun, stat, k, more
 
       more = 0
-      if (present(behind)) more = size(behind)
+      if (present(further)) more = size(further)
       if (transfer(1_int32, 0_int8) /= 1_int8) then
          call status%fail(ehl_file, path // ": this machine is not little-endian")
          return
@@ -90,7 +90,7 @@ contains
       if (status%failed()) return
       write (lun, iostat=stat, iomsg=reason) head, values
       do k = 1, more
-         if (stat == 0) write (lun, iostat=stat, iomsg=reason) behind(k)%values
+         if (stat == 0) write (lun, iostat=stat, iomsg=reason) further(k)%values
       end do
       call end_writing(lun, path, len(head) + 8_int64*(1 + more)*size(values, kind=int64), stat, reason, status)
    end subroutine write_values

@@ -13,7 +13,7 @@ module ehl_case_checks
    use ehl_case_point, only: find_contact
    use ehl_case_source, only: case_source_t
    use ehl_contact, only: contact_t
-   use ehl_grid, only: coarsest_most, find_levels
+   use ehl_grid, only: find_levels, max_coarsest
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_t
    use ehl_scales, only: scales_t
@@ -256,7 +256,7 @@ contains
          end do
          if (above > nx) then
             call source%refuse("grid.points", "grid.points = "//to_text(nx)//": too few grids can be made by halving", &
-                               "an odd number with points - 1 halved down to an even number of "//to_text(coarsest_most)// &
+                               "an odd number with points - 1 halved down to an even number of "//to_text(max_coarsest)// &
                                " or less; the nearest are "//to_text(below)//" and "//to_text(above), status)
             return
          end if

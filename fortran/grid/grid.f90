@@ -5,10 +5,10 @@ module ehl_grid
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: grid_t, new_grid, new_strip, find_levels, coarsest_most, long_x
+   public :: grid_t, new_grid, new_strip, find_levels, max_coarsest, long_x
 
    !> Minimum and maximum number of intervals per side of the coarsest grid, which is solved directly
-   integer, parameter :: coarsest_fewest = 16, coarsest_most = 32
+   integer, parameter :: min_coarsest = 16, max_coarsest = 32
 
    !> Grids with hx/hy of at least this are coarsened along Y alone (ehl_hierarchy)
    real(dp), parameter :: long_x = 1.6_dp
@@ -99,18 +99,18 @@ contains
    end function new_strip
 
    !> Number of levels of a grid of nx x ny nodes, and intervals of the sides of the coarsest one; 0 levels if halving the
-   !> intervals does not lead to even numbers of which the smaller is at most `coarsest_most`
+   !> intervals does not lead to even numbers of which the smaller is at most `max_coarsest`
    pure subroutine find_levels(nx, ny, levels, intervals)
       integer, intent(in) :: nx, ny
       integer, intent(out) :: levels, intervals(2)
 
       intervals = [nx, ny] - 1
       levels = 1
-      do while (all(mod(intervals, 4) == 0) .and. minval(intervals) >= 2*coarsest_fewest)
+      do while (all(mod(intervals, 4) == 0) .and. minval(intervals) >= 2*min_coarsest)
          intervals = intervals/2
          levels = levels + 1
       end do
-      if (minval(intervals) > coarsest_most .or. any(mod(intervals, 2) /= 0) .or. min(nx, ny) < 3) levels = 0
+      if (minval(intervals) > max_coarsest .or. any(mod(intervals, 2) /= 0) .or. min(nx, ny) < 3) levels = 0
    end subroutine find_levels
 
    !> X of column i

@@ -233,7 +233,7 @@ contains
       type(grid_t), allocatable, intent(out) :: grids(:)
       integer, allocatable, intent(out) :: below(:)
       type(grid_t) :: grid
-      integer :: k, step(2), same, fewest
+      integer :: k, step(2), same, min_columns
 
       allocate (grids(n), below(n))
       grids(1) = coarsest
@@ -241,12 +241,12 @@ contains
          grids(k) = grids(k - 1)%finer()
       end do
       below = 0
-      fewest = coarsest%nx - 1
+      min_columns = coarsest%nx - 1
       k = 0
       ! the loop itself extends the list
       do while (k < size(grids))
          k = k + 1
-         step = next_step(grids(k), fewest)
+         step = next_step(grids(k), min_columns)
          if (all(step == 1)) cycle
          grid = grids(k)%coarsened(step)
          same = findloc(grids%nx == grid%nx .and. grids%ny == grid%ny, .true., dim=1)

@@ -16,7 +16,7 @@ module ehl_cached_factors
    !> curvature of F exceeds `weak_curvature` they are inversely proportional to it. Verified by test/test_flow.f90
    real(dp), parameter :: max_change = 0.01_dp, sliding_offset = 0.1_dp, weak_curvature = 0.15_dp
    !> Factor of these changes in a coarse-grid correction, where errors of a few per mille of the factors do not matter
-   real(dp), parameter :: correction_factor = 5.0_dp
+   real(dp), parameter :: coarse_grid_ratio = 5.0_dp
    !> A component of S much below this changes the factors only by its square: a quotient by it would be dominated by rounding
    real(dp), parameter :: min_component = 0.05_dp
    !> B of a node without factors, different from any B >= 0: all nodes of a segment have factors, or none
@@ -92,7 +92,7 @@ contains
          if (self%values(1, f_b, segment, j) > none) self%values(:n, f_b, segment, j) = none
          return
       end if
-      reach = self%reach*merge(correction_factor, 1.0_dp, self%correcting)
+      reach = self%reach*merge(coarse_grid_ratio, 1.0_dp, self%correcting)
       relative = merge(0.0_dp, reach, self%law%law == eyring)
       associate (cached => self%values(:, :, segment, j))
          do i = 1, n

@@ -53,11 +53,11 @@ contains
    end function new_isotherm
 
    !> Weighted harmonic mean of the slopes of two intervals; 0 if they differ in sign
-   pure real(dp) function harmonic(left, right, before, behind)
-      real(dp), intent(in) :: left, right, before, behind
+   pure real(dp) function harmonic(left, right, before, after)
+      real(dp), intent(in) :: left, right, before, after
 
       harmonic = 0.0_dp
-      if (before*behind > 0.0_dp) harmonic = 3.0_dp*(left + right)/((2.0_dp*right + left)/before + (right + 2.0_dp*left)/behind)
+      if (before*after > 0.0_dp) harmonic = 3.0_dp*(left + right)/((2.0_dp*right + left)/before + (right + 2.0_dp*left)/after)
    end function harmonic
 
    !> The law from isotherms with pressures in Pa, the Hertz pressure [Pa], the temperature of the inlet [K] and beta

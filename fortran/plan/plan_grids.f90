@@ -2,7 +2,7 @@
 !> Grids of a plan
 submodule (ehl_plan) ehl_plan_grids
    use ehl_domain, only: domain_t, flooding_layer
-   use ehl_grid, only: coarsest_most, find_levels, new_grid
+   use ehl_grid, only: find_levels, max_coarsest, new_grid
    use ehl_grid_error, only: relative_errors
    use ehl_resolution, only: has_solution
    use ehl_strip_grid, only: make_strip
@@ -31,14 +31,14 @@ contains
                        intervals)
       if (plan%contact%is_line()) then
          ! the direct solution of a single row is cheap on a finer grid
-         do while (intervals(1) < merge(coarsest_most, coarsest_of_line, plan%surfaces%width() > 0.0_dp) .and. plan%levels > 1)
+         do while (intervals(1) < merge(max_coarsest, coarsest_of_line, plan%surfaces%width() > 0.0_dp) .and. plan%levels > 1)
             intervals = 2*intervals
             plan%levels = plan%levels - 1
          end do
       end if
       ! a coarsest grid that does not resolve a thick film gives wrong corrections
       film = sqrt(2.0_dp*plan%film_expected)
-      if (plan%levels > 1 .and. 2*minval(intervals) <= coarsest_most .and. film > thick_film .and. &
+      if (plan%levels > 1 .and. 2*minval(intervals) <= max_coarsest .and. film > thick_film .and. &
           input%grid%x_outlet - input%grid%x_inlet > coarsest_mesh*film*intervals(1)) then
          intervals = 2*intervals
          plan%levels = plan%levels - 1

@@ -97,9 +97,9 @@ contains
       call record%set("surfaces", surfaces%count())
       if (.not. surfaces%rough()) return
       call record%set("move", surfaces%move())
-      call record%set("some_rest", surfaces%some_stationary())
+      call record%set("some_stationary", surfaces%some_stationary())
       call record%set("pass_once", surfaces%pass_once())
-      call record%set("meets", surfaces%meets)
+      call record%set("enough_positions", surfaces%enough_positions)
       call record%set("has_spectrum", surfaces%has_spectrum())
       call record%set("repeats", surfaces%repeats)
       call record%set("whole_periods", surfaces%whole)

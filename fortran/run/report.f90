@@ -89,7 +89,7 @@ contains
          call report_amplitude(record, surfaces)
          call record%set("scheme", trim(merge("narrow", "paper ", run%plan%scheme == wedge_narrow)))
          call record%set("T T_period", [t%time, t%mean%period])
-         if (surfaces%count() > 1) call record%set("T_mismatch", merge(surfaces%mismatch, not_known, surfaces%meets))
+         if (surfaces%count() > 1) call record%set("T_mismatch", merge(surfaces%mismatch, not_known, surfaces%enough_positions))
          call record%set("T_mean", merge(t%mean%window(), 0.0_dp, t%mean%has_mean()))
          call record%set("steps", t%step)
          call record%set("steps_skipped", t%skipped)

@@ -121,7 +121,7 @@ contains
       parts(4) = waves(1)
       associate (surfaces => self%run%plan%surfaces, mean => self%run%transient%mean, domain_error => self%run%plan%domain_error(1))
          if (surfaces%mismatch > 0.0_dp .and. ieee_is_finite(ratio)) then
-            parts(3) = merge(mean%window_error(), not_known, surfaces%meets)
+            parts(3) = merge(mean%window_error(), not_known, surfaces%enough_positions)
             why(3) = reason_few_positions
             call record%set_detail("repeats", real(surfaces%repeats, dp))
             call record%set_detail("whole_periods", real(surfaces%whole, dp))

@@ -26,7 +26,7 @@ module ehl_moving_surfaces
       real(dp) :: mismatch = 0.0_dp
       !> Whether there are enough relative positions in that time for a mean; number of periods of the slowest surface that would be
       !> a common period, if that is longer; 0: not known
-      logical :: meets = .true.
+      logical :: enough_positions = .true.
       integer :: whole = 0
    contains
       procedure :: move
@@ -172,7 +172,7 @@ contains
 
       self%repeats = 1
       self%mismatch = 0.0_dp
-      self%meets = .true.
+      self%enough_positions = .true.
       self%whole = 0
       self%period = 0.0_dp
       allocate (periods(0), others(0))
@@ -228,13 +228,13 @@ contains
 
       self%repeats = most
       self%mismatch = max_mismatch
-      self%meets = .false.
+      self%enough_positions = .false.
       do n = 1, most
          mismatch = phase_mismatch(n*maxval(periods), periods)
          if (positions(n, nint(n*maxval(periods)/minval(periods))) < min_positions .or. mismatch >= self%mismatch) cycle
          self%repeats = n
          self%mismatch = mismatch
-         self%meets = .true.
+         self%enough_positions = .true.
          if (mismatch <= good_mismatch) exit
       end do
       self%whole = common(periods, max_named)

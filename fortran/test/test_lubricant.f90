@@ -45,14 +45,14 @@ contains
    end subroutine check_law
 
    !> A pole between two pressures: finite below it, infinite above, also for a zero temperature rise
-   subroutine check_solid(law, before, behind, name)
+   subroutine check_solid(law, below, above, name)
       class(viscosity_law_t), intent(in) :: law
-      real(dp), intent(in) :: before, behind
+      real(dp), intent(in) :: below, above
       character(len=*), intent(in) :: name
       real(dp), dimension(3) :: values, slope, at
 
-      call law%log_viscosity([before, behind, 3.0_dp*behind], values, slope)
-      call law%log_viscosity_at([before, behind, 3.0_dp*behind], [0.0_dp, 0.0_dp, 0.0_dp], at)
+      call law%log_viscosity([below, above, 3.0_dp*above], values, slope)
+      call law%log_viscosity_at([below, above, 3.0_dp*above], [0.0_dp, 0.0_dp, 0.0_dp], at)
       call is_true(values(1) > 20.0_dp .and. values(1) < huge(1.0_dp), name//" below its pole")
       call is_true(all(values(2:) > huge(1.0_dp)) .and. all(at(2:) > huge(1.0_dp)), name//" above its pole")
       call is_true(all(abs(slope(2:)) <= 0.0_dp), name//" does not change there")

@@ -48,7 +48,7 @@ contains
 
    !> Sum of all heights, of moving and of stationary surfaces; rms height and slope as the root of the sum of squares
    subroutine heights_add()
-      type(moving_surfaces_t) :: all, moving, resting
+      type(moving_surfaces_t) :: all, moving, fixed
       type(grid_t) :: grid
       type(status_t) :: status
       real(dp), dimension(33, 33) :: rr, part, sum_of_both
@@ -56,16 +56,16 @@ contains
       grid = new_grid(33, 33, -2.0_dp, 2.0_dp, 2.0_dp, .false.)
       call is_true(.not. (all%rough() .or. all%move() .or. all%all_stationary()), "none: the contact is smooth")
       call add_wave(moving, 1.0_dp, 2.0_dp, amplitude)
-      call add_wave(resting, 0.8_dp, 0.0_dp, 2.0_dp*amplitude)
+      call add_wave(fixed, 0.8_dp, 0.0_dp, 2.0_dp*amplitude)
       call add_wave(all, 1.0_dp, 2.0_dp, amplitude)
       call add_wave(all, 0.8_dp, 0.0_dp, 2.0_dp*amplitude)
       call is_true(moving%move() .and. .not. moving%all_stationary() .and. .not. moving%some_stationary(), "one that moves")
-      call is_true(resting%all_stationary() .and. .not. resting%move() .and. .not. resting%some_stationary(), "one at rest")
+      call is_true(fixed%all_stationary() .and. .not. fixed%move() .and. .not. fixed%some_stationary(), "one at rest")
       call is_true(all%move() .and. all%some_stationary() .and. .not. all%all_stationary(), "one of each")
       call is_equal(size(all%velocities()), 1, "stationary surfaces have no velocity for the predictor")
       call all%prepare(grid, status)
       call moving%roughness(grid, 1.5_dp, rr)
-      call resting%roughness(grid, 1.5_dp, part)
+      call fixed%roughness(grid, 1.5_dp, part)
       sum_of_both = rr + part
       call is_true(maxval(abs(part)) > amplitude, "the stationary wave is everywhere")
       call all%roughness(grid, 1.5_dp, rr, moving=.false.)
@@ -74,8 +74,8 @@ contains
       call is_close(maxval(abs(rr - (sum_of_both - part))), 0.0_dp, 1.0e-17_dp, "what moves")
       call all%roughness(grid, 1.5_dp, rr)
       call is_close(maxval(abs(rr - sum_of_both)), 0.0_dp, 0.0_dp, "heights add up")
-      call is_close(all%rms_height(), hypot(moving%rms_height(), resting%rms_height()), 1.0e-15_dp, "composite rms height")
-      call is_close(all%rms_slope(), hypot(moving%rms_slope(), resting%rms_slope()), 1.0e-15_dp, "composite rms slope")
+      call is_close(all%rms_height(), hypot(moving%rms_height(), fixed%rms_height()), 1.0e-15_dp, "composite rms height")
+      call is_close(all%rms_slope(), hypot(moving%rms_slope(), fixed%rms_slope()), 1.0e-15_dp, "composite rms slope")
       call is_true(.not. status%failed(), "surfaces")
    end subroutine heights_add
 
@@ -93,7 +93,7 @@ contains
       call both%find_period(36)
       call is_close(both%period, 3.2_dp, 1.0e-14_dp, "common period")
       call is_equal(both%repeats, 3, "periods of the slower one in it")
-      call is_true(.not. both%mismatch > 0.0_dp .and. both%meets, "no mismatch")
+      call is_true(.not. both%mismatch > 0.0_dp .and. both%enough_positions, "no mismatch")
       call is_equal(both%slowest(), 2, "the slower one")
       call is_close(maxval(abs(both%velocities() - [0.75_dp, 1.25_dp])), 0.0_dp, 0.0_dp, "velocities in order")
       call is_close(both%time_to_mean(0.0_dp), (x_filled - x_start)/0.75_dp, 1.0e-14_dp, "when the slower one fills the contact")
@@ -116,17 +116,17 @@ contains
       call golden%find_period(36)
       call is_equal(golden%repeats, 34, "34 golden ratios are nearly 55")
       call is_close(golden%mismatch, abs(34*ratio - 55), 1.0e-12_dp, "mismatch")
-      call is_true(golden%meets .and. golden%mismatch <= 0.02_dp, "enough relative positions")
+      call is_true(golden%enough_positions .and. golden%mismatch <= 0.02_dp, "enough relative positions")
       call golden%find_period(4)
       call is_equal(golden%repeats, 3, "3 golden ratios are roughly 5")
       ! 1.01 and 0.99: 99 periods to 101
       call add_wave(alike, 0.5_dp, 1.01_dp, amplitude)
       call add_wave(alike, 0.5_dp, 0.99_dp, amplitude)
       call alike%find_period(36)
-      call is_true(.not. alike%meets, "hardly any relative motion")
+      call is_true(.not. alike%enough_positions, "hardly any relative motion")
       call is_equal(alike%whole, 99, "sufficient number of periods")
       call alike%find_period(99)
-      call is_true(alike%meets .and. .not. alike%mismatch > 0.0_dp, "they do")
+      call is_true(alike%enough_positions .and. .not. alike%mismatch > 0.0_dp, "enough relative positions in 99 periods")
       call is_close(alike%period, 50.0_dp, 1.0e-12_dp, "100 wavelengths")
    end subroutine periods_that_nearly_meet
 
