@@ -43,7 +43,7 @@ module ehl_domain
                           thin_film = 0.06_dp, thin_power = 0.25_dp
    !> Additional decay, relative to a round contact, of the error due to the sides of a wide contact with their distance from its
    !> ends, in half lengths along the motion: at least 1.2 in thin films at kappa = 1.5 to 16 and 1.15 to 2 half widths
-   !> (docs/evidence/machines); not measured, and 0, above the second value of the film
+   !> (docs/evidence/machines); not measured in films above `thick_for_decay`, where it is 0
    real(dp), parameter :: end_decay = 1.2_dp, thick_for_decay = 0.2_dp
    !> Load beyond inlet and sides, over lambda_bar; minimum sensitivity of the film to load around M = 5, where the
    !> sensitivity of the film formula vanishes and the elastic deflection matters
@@ -53,8 +53,8 @@ module ehl_domain
    !> factor of the error with a flooded border, and its power with P = 0, where a narrow contact has a larger error, too
    real(dp), parameter :: max_wide = 4.0_dp, wide_power = 0.4_dp
    !> Sides of a wide contact in half widths, and length s of a film above which they are further out; with a flooded
-   !> border at most one half length along the motion beyond its ends, but at least `min_beyond` half widths: a distance 1.5 times
-   !> as large changes H_c by 0.02 % and H_min by up to 0.13 % (docs/evidence/machines)
+   !> border at most one half length along the motion beyond its ends, but at least `min_beyond` half widths: sides 1.5
+   !> times as far away change H_c by 0.02 % and H_min by up to 0.13 % (docs/evidence/machines)
    real(dp), parameter :: beyond_ends = 1.3_dp, thick_at_ends = 0.95_dp, min_beyond = 1.08_dp
    !> Sides of a narrow contact over the length on which its gap opens across the motion (side_scale); the errors of
    !> H_c and H_min at twice that, with a flooded border and with P = 0, and their decay with the distance: upper limits of 21

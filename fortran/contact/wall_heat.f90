@@ -7,9 +7,9 @@
 !>    rise(x) = 1/k sqrt(kappa/(pi u)) int q(x')/sqrt(x - x') dx',   x' < x                                            (1)
 !>
 !> (Carslaw & Jaeger 1959, section 10.7), exact for large u a/(2 kappa), where heat is conducted normal to the wall alone.
-!> Otherwise u is increased by a constant times kappa/a, such that a wall at rest has its maximum temperature under a Hertz
-!> contact (for a circle as in Tian & Kennedy 1994, J. Tribol. 116, 167; for a narrow contact see raised_speed). The heat is
-!> constant over each cell of a row, and integrated exactly.
+!> Otherwise u is increased by a constant times kappa/a, such that the maximum temperature rise of a wall at rest is that under
+!> a Hertz contact (for a circle as in Tian & Kennedy 1994, J. Tribol. 116, 167; by more under a narrow contact, see
+!> raised_speed). The heat is constant over each cell of a row, and integrated exactly.
 !>
 !> Of the heat q = q_1 + q_2, generated uniformly across the film thickness h, wall 1 receives
 !>
