@@ -19,8 +19,7 @@ module ehl_case_defaults
    implicit none (type, external)
    private
    public :: complete, inlet, is_starved, latest_start, line_keys, make_isotherms, moes_keys, point_keys, si_keys, &
-             sliding, velocity_ratio, &
-             must_wait
+             must_wait, sliding, velocity_ratio
 
    character(len=16), parameter :: moes_keys(5) = [character(len=16) :: "moes_m", "moes_l", "radius_ratio", "moes_m_line", &
                                                    "moes_l_line"], &
@@ -293,7 +292,7 @@ contains
    pure logical function must_wait(s, other)
       type(surface_case_t), intent(in) :: s, other
       must_wait = is_feature(s%kind) .and. .not. is_feature(other%kind) .and. .not. has_no_height(other) .and. &
-              s%velocity_ratio > 0.0_dp .and. other%velocity_ratio > 0.0_dp
+                  s%velocity_ratio > 0.0_dp .and. other%velocity_ratio > 0.0_dp
    end function must_wait
 
    !> Latest start of a feature: it comes near the contact when the front of the other surface leaves it

@@ -88,7 +88,7 @@ contains
       if (size(radius) == 0) radius = 0.0_dp*input%duty%time + input%contact%radius_x
       if (size(load) /= size(radius)) return
       duty_widening = max(1.0_dp, maxval(load*radius)/(input%contact%size_of_load()*input%contact%radius_x)) &
-                    **merge(1.0_dp/2.0_dp, 1.0_dp/3.0_dp, input%contact%is_cylinder())
+                      **merge(1.0_dp/2.0_dp, 1.0_dp/3.0_dp, input%contact%is_cylinder())
    end function duty_widening
 
    !> Nodes along Y: as many as along X in a round contact, otherwise from the ratio hy/hx of the cells

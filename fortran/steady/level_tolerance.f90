@@ -74,7 +74,7 @@ contains
       type(steady_options_t), intent(in) :: options
       type(contact_results_t), intent(in) :: m
       share_counts = mostly_solid_contact(m) .or. (options%inlet%film > 0.0_dp .and. m%touching%load_share > 0.0_dp .and. &
-                                                m%touching%supply <= much_mass_defect)
+                                                          m%touching%supply <= much_mass_defect)
    end function share_counts
 
    !> Whether the boundary film supports most of the load, with a mass defect small enough for a well-posed contact
