@@ -52,7 +52,7 @@ spf | moes_l_line | - | Moes material number L of a line
 sf | alpha_bar | - | alpha p_h
 sf | speed_parameter | - | 12 eta0 u R^2/(a^3 p_h)
 spf | hertz_pressure_Pa | Pa | p_h
-spf | hertz_radius_m | m | a; for an ellipse the semi-axis along the motion, for a line b
+spf | hertz_radius_m | m | a; of an ellipse its semi-axis along the motion, of a line half its width
 spf | film_scale_m | m | a^2/R
 spf | radius_ratio | - | R_x/R_y of an elliptical contact
 spfr | ellipticity | - | semi-axis of the dry contact across the motion over that along it
@@ -127,7 +127,7 @@ s | starvation_by_formula | - | starvation from a formula (docs/theory/starvatio
 s | inlet_position | a | position of the meniscus ahead of the centre
 s | oil_layer | a^2/R | oil layer that arrives
 s | oil_in | a^3/R | inflow of oil over the mean velocity; for a line per length, a^2/R
-s | oil_out | a^3/R | outflow of oil behind the contact, in the units of oil_in
+s | oil_out | a^3/R | outflow of oil at the outlet, in the units of oil_in
 s | oil_at_sides | a^3/R | outflow of oil at the sides of the domain, in the units of oil_in
 s | passages | - | number of successive contacts solved
 s | oil_imbalance | - | error of the oil balance relative to oil_in
@@ -189,8 +189,8 @@ sp | temperature_rise_wall_1_max_K | K | maximum temperature rise of the surface
 sp | temperature_rise_wall_2_max_K | K | maximum temperature rise of the surface of body 2
 sp | boundary_film | a^2/R | boundary film at ambient pressure
 sp | contact_load_share | - | load share of solid contact: a mean like mu_ratio, or over a duty
-sp | contact_load_share_error | - | error of contact_load_share
-s | contact_load_share_error_grid | - | part of contact_load_share_error from two grids
+sp | contact_load_share_error | - | the sum of its parts; in a prediction the error due to the film
+s | contact_load_share_error_grid | - | part of that error due to the grid, from two grids
 s | contact_load_share_error_stop | - | part of contact_load_share_error due to the end of the run
 sp | contact_load_share_error_note | | reason if contact_load_share_error is not known
 sp | contact_area_share | - | area of solid contact over that of the dry contact
@@ -254,7 +254,7 @@ s | duty_flash_max_error_K | K | estimate of the error of duty_flash_max_K
 s | duty_load_share_max | - | maximum share of the load on solid contact
 s | duty_load_share_max_t_s | s | time of duty_load_share_max
 s | duty_load_share_max_error | - | estimate of the error of duty_load_share_max
-s | duty_period_change | - | relative change of the mean central film in the last period
+s | duty_period_change | - | relative change of the mean central film between the last two periods
 s | duty_begin_s | s | time at which the run begins
 s | duty_end_s | s | time at which the run ends
 s | T | a/u | time at the end of the run

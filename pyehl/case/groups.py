@@ -342,7 +342,7 @@ class Solver:
     cycle: str = word(
         "auto",
         "auto|W|V|F",
-        "multigrid cycle; auto: F, then cheaper cycles, for a smooth contact, V for time steps",
+        "multigrid cycle; auto: F, the second one reduced, for a smooth contact, V for time steps",
     )
     accuracy: float = real(
         0.1, "-", "[1e-6, 1]", "required algebraic error as a share of the discretisation error"

@@ -115,7 +115,7 @@ class Lubricant:
         0.0,
         "degC",
         "[-100, 500]",
-        "lowest temperature of the measurements behind the constants; both 0: not known",
+        "lowest temperature of the measurements of the constants; both 0: not known",
     )
     range_temperature_max: float = real(
         0.0, "degC", "[-100, 500]", "highest temperature of these measurements"
