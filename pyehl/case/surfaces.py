@@ -15,7 +15,8 @@ MAX_SEED = 2147483647
 FRACTAL_LENGTH = 8.29e-4
 # Rq over Ra of normally distributed heights
 RQ_OVER_RA = math.sqrt(0.5 * math.pi)
-# Front of roughness that reaches the contact, and that has filled it [a], as in fortran/surface
+# Position X of the front of roughness that reaches the contact, and of one that has passed it [a],
+# as in fortran/surface
 X_MATTERS, X_FILLED = -1.25, 1.05
 # Time in which the film made in the inlet passes the contact [a/u]
 THROUGH = 2.0
