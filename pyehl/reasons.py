@@ -162,7 +162,7 @@ def law_note(settings: Settings, hertz_pressure: float) -> str:
     low, high = s["range_temperature_min"], s["range_temperature_max"]
     pressure, temperatures = s["range_pressure_max"], bool(low or high)
     if not temperatures and not pressure > 0.0:
-        return f"{text}the range of the measurements behind it is not known"
+        return f"{text}the range of its measurements is not known"
     ranges = [f"from {low} to {high} degC"] if temperatures else []
     ranges += [f"up to {power(pressure, 3)} Pa"] if pressure > 0.0 else []
     text += f"measured {' and '.join(ranges)}"

@@ -224,7 +224,7 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
         raise InputError(f"surface.kind = '{kind}': the page takes {', '.join(KINDS)}")
     contact, lubricant = settings["contact"], settings["lubricant"]
     if lubricant.get("table"):
-        raise InputError("lubricant.table: the page knows viscosities, data sheets and names")
+        raise InputError("lubricant.table: the page takes viscosities, data sheets and names")
     # the viscosity without shear heating
     plain = {**lubricant, "thermal_reduction": False}
     point = OperatingPoint.from_settings({"contact": contact, "lubricant": plain})

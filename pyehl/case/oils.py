@@ -145,7 +145,7 @@ def read_table(path: str) -> list[State]:
     if not states:
         raise InputError(
             f"{path}: error: no measured viscosity\nexpected: {HEADER}, and a line for each state "
-            "behind it"
+            "after it"
         )
     for _, group in groupby(states, key=lambda state: state.temperature):
         _check(source, list(group))

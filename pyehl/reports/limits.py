@@ -133,6 +133,7 @@ def warnings(summary: Values) -> list[str]:
         result.append(f"The film would have ended on {100.0 * share:.2g} % of the contact.")
     cavitated = summary.get("cavitated_share") or 0.0
     if cavitated > 0.0:
-        share = 100.0 * cavitated
-        result.append(f"The pressure would be negative on {share:.2g} % of the contact.")
+        result.append(
+            f"The pressure would be negative on {100.0 * cavitated:.2g} % of the contact."
+        )
     return result
