@@ -260,7 +260,7 @@ def test_dent_over_roughness(solve, resting):
 
 
 def test_dent_on_both(solve):
-    """Two dents: the run ends when both have left, and reports the minimum film under each."""
+    """Two dents: the run ends when both have left, with a film no thicker than that of either."""
     both = solve(POINT, POINTS, surfaces_of(DENT, DENT | {"amplitude": 2e-3}, slide_to_roll=0.5))
     first = solve(POINT, POINTS, surfaces_of(DENT, {}, slide_to_roll=0.5))
     second = solve(POINT, POINTS, surfaces_of({}, DENT | {"amplitude": 2e-3}, slide_to_roll=0.5))

@@ -108,7 +108,7 @@ def test_no_circle(root: Path):
 
 
 # A file without such a word takes nothing private: it need not be parsed
-PRIVATE = re.compile(r"\b_[^\W_]")
+PRIVATE = re.compile(r"\b_[^\W_]|\._\b|\bimport\b.*\b_\b")
 # of notebooks and of argparse
 PUBLIC = {"_repr_html_", "_actions", "_SubParsersAction"}
 

@@ -219,7 +219,7 @@ def test_unreadable_instrument_file(tmp_path):
 
 @pytest.mark.parametrize("data", [b"II*\0" + bytes(range(250)) * 2, b"\0\0\0" + b"1 2 3\n" * 30])
 def test_readers_print_nothing(tmp_path, capfd, recwarn, data):
-    """Nor log or warn, of a binary file with the name of a text."""
+    """They neither log nor warn about a binary file with the name of a text."""
     (tmp_path / "map.csv").write_bytes(data)
     with pytest.raises(InputError, match=r"map\.csv: .*map") as refused:
         read_scan(tmp_path / "map.csv")

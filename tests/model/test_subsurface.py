@@ -338,7 +338,8 @@ def test_mean_and_amplitude_need_a_passage() -> None:
     below = pyehl.stress(rough, friction="none")
     assert "shear_amplitude" not in below
     assert "the surface moves 0 a; mean and amplitude need" in below.attrs["cycle_note"]
-    with pytest.raises(pyehl.InputError, match=r"fatigue = .crossland.: during the 1 .*frame_int"):
+    words = "fatigue = 'crossland': during the 1 instants of the run .*frame_interval"
+    with pytest.raises(pyehl.InputError, match=words):
         pyehl.stress(rough, fatigue="crossland", torsion_limit=4e8, bending_limit=6.5e8)
 
 
