@@ -35,6 +35,7 @@ WAVES = {"surface.kind": "harmonic", "surface.wavelength": 0.5, "contact.slide_t
 
 
 def _waves(load: float, height: float, **law: float | str) -> Row:
+    """Give the changes for waves of a height [a^2/R] at a load [N], with keys of the lubricant."""
     changes: Row = {
         "contact.load": load,
         "surface.amplitude": height,

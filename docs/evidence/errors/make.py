@@ -98,7 +98,7 @@ def smooth_points() -> Iterator[Row]:
 
 
 def rough_cases() -> Iterator[Row]:
-    """Draw waves and features: M from 20 to 640, L from 2 to 20, 0.1 to 0.75 of the film."""
+    """Draw waves and features: M from 20 to 640, L from 2 to 20, height over film 0.1 to 0.75."""
     generator = np.random.default_rng(SEED + 4)
     for _ in range(ROUGH):
         moes_m = math.exp(generator.uniform(math.log(20.0), math.log(640.0)))

@@ -36,9 +36,9 @@ DEPTH = {
     ("simulated", "-0.5"): 160e-9,
 }
 PIXEL = 1e-6
-# In Hertz radii: length of the tile, and distance of the dimple behind its front
+# In Hertz radii: length of the tile, and distance of the dimple from the front of the tile
 TILE = 6.0
-BEHIND = 0.5
+FROM_FRONT = 0.5
 # Last position of the centre of the dimple, with a margin
 END = 0.95
 FRAMES = 0.03
@@ -84,9 +84,9 @@ def dimple(radius: float, depth: float, length: float) -> pyehl.Topography:
     place = (np.arange(count) - count // 2) * PIXEL
     t = np.hypot(place[:, None], place[None]) / (1.2 * radius)
     heights = np.where(t < 1.0, -depth * np.cos(0.5 * np.pi * t) * np.exp(-2.0 * t**2), 0.0)
-    behind = round(BEHIND / TILE * count)
+    shift = round(FROM_FRONT / TILE * count)
     return pyehl.Topography(
-        np.roll(heights, (-behind - count // 2, -(count // 2)), (0, 1)),
+        np.roll(heights, (-shift - count // 2, -(count // 2)), (0, 1)),
         size=(count * PIXEL, count * PIXEL),
     )
 
@@ -104,7 +104,7 @@ def films(
     a = float(smooth.hertz_radius_m)
     velocity = 1.0 + 0.5 * slip
     start = float(smooth.X[0])
-    steps = round((END - start + BEHIND) / velocity / float(smooth.x_mesh))
+    steps = round((END - start + FROM_FRONT) / velocity / float(smooth.x_mesh))
     ds = pyehl.solve(
         CASE,
         f"grid.points={points}",
@@ -125,7 +125,7 @@ def films(
         if np.isnan(place):
             film = smooth.H.values[:, line]
         else:
-            time = (place * 1e-6 / a - start + BEHIND) / velocity
+            time = (place * 1e-6 / a - start + FROM_FRONT) / velocity
             film = ds.frame_H.values[:, line, int(np.argmin(np.abs(ds["T"].values - time)))]
         result.append((x, 1e9 * float(ds.film_scale_m) * film))
     return result

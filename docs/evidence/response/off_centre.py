@@ -82,8 +82,8 @@ def residuals(table: NDArray[np.float64]) -> NDArray[np.float64]:
         line = [inlet_fit(k, 0.0, (m, ell), RATIO, y) for k, y in table[here, 2:4]]
         middle = [inlet_fit(k, 0.0, (m, ell), RATIO) for k in kx]
         # off the centre line the inlet edge is further along the motion
-        behind = np.sqrt(1.0 - np.square(table[here, 3])) - 1.0
-        change = np.array(line) / np.array(middle) * np.exp(1j * kx * (RATIO - 1.0) * behind)
+        further = np.sqrt(1.0 - np.square(table[here, 3])) - 1.0
+        change = np.array(line) / np.array(middle) * np.exp(1j * kx * (RATIO - 1.0) * further)
         centre = np.repeat(((t - driven) / free)[table[here, 3] == 0.0], len(LINES))
         result[here] = np.abs(driven + free * centre * change - t)
     return result
