@@ -20,11 +20,12 @@ UNKNOWN_ERROR = 0.03
 # Result that is compared, by the kind of problem, and its error estimate
 RESULTS = {"smooth": ("H_c", "H_c_error_grid")}
 FILM_TOLERANCE = 0.01
-"""Relative difference allowed between the film of a node in contact and the boundary film."""
+"""Relative difference allowed between the film of a node in contact and the boundary film, and how
+far below zero the mass defect may be."""
 LOAD_TOLERANCE = 1e-4
 """Difference allowed of load and load share, which are sums over the same nodes here and there."""
 MIN_ERROR = 1e-3
-"""Difference allowed of any load share."""
+"""Difference of a load share that is always allowed, whatever its stated error."""
 
 
 def judge(row: Row, strict: Mapping[str, Any]) -> None:

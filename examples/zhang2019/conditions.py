@@ -147,8 +147,9 @@ class WaveSet:
 def waves(runs: Runs, level: Level, scheme: str) -> WaveSet:
     """Run the waves of `CURVES` and `RATIOS` with a scheme.
 
-    Amplitudes are relative to the film on the grid of the paper: relative to the film of a coarser
-    grid they would be too small, and the friction increase is proportional to their square.
+    Amplitudes are absolute, fractions of the film on the grid of the paper: as fractions of the
+    film of a coarser grid they would be too small, and the friction increase is proportional to
+    their square.
     """
     films = smooth_films(runs, level)
     cases = [(m, ell, lam, ratio) for m, ell, lam in CURVES for ratio in RATIOS]

@@ -15,7 +15,7 @@ from pyehl.theory.moes_film import regime
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings
 
-# x_inlet with zero pressure at the border up to which the contact counts as flooded [a]
+# Largest x_inlet at which a contact with zero pressure at the border counts as flooded [a]
 FLOODED = -2.0
 
 

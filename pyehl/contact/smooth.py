@@ -39,6 +39,7 @@ OF_SOLIDS = (
     *("thermal_conductivity", "thermal_diffusivity"),
     *("thermal_conductivity_2", "thermal_diffusivity_2"),
 )
+# (the temperature stays: a case may have it only with something that it changes)
 OF_OIL = ("thermal_conductivity",)
 OF_SHEAR = (
     *("shear_law", "flow", "eyring_stress", "limiting_stress", "limiting_coefficient"),
@@ -208,9 +209,9 @@ def with_boundary_film(
 ) -> SmoothContact:
     """Return the smooth contact with the boundary film of a case; `contact` is that without it.
 
-    `contact` is returned if its film is thick enough; else the solution on the first grid that
-    resolves the inlet. If no grid does, or it does not converge, films are NaN and the source
-    states why.
+    It is `contact` with a load share of 0 if its film is thick enough; else the solution on the
+    first grid that resolves the inlet. If no grid does, or it does not converge, films are NaN and
+    the source states why.
     """
     operating = operating_of(settings)
     boundary = float(settings["lubricant"]["boundary_film"]) / operating.film_scale

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Friction of a model over a passage, its tracks and bands of wavelengths, with its errors.
 
-Of a full film, and of a partial one.
+With a full film, and with contact at a boundary film.
 """
 
 from __future__ import annotations

@@ -70,9 +70,10 @@ class TilePositions:
         return float(np.mean([friction((int(step), track)) for step in steps]))
 
     def passage(self, friction: Friction, positions: int, largest: float) -> Passage:
-        """Give mu_r/mu_s in a number of positions over the length of the tile; 0: as needed.
+        """Give mu_r/mu_s at equally spaced positions over the length of the tile.
 
-        No more are added to a mean above `largest`.
+        `positions` is their number; 0: as many as the tolerance needs, no more for a mean above
+        `largest`.
         """
         n, error = positions or FIRST_POSITIONS, math.nan
         steps = np.arange(n) * (self.pixels // n)

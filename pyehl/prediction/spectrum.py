@@ -320,7 +320,7 @@ class Band:
 
 
 def octaves(q: Array, power: Array, *, only: int = 0) -> Iterator[tuple[float, Mask, bool]]:
-    """Octaves of wavelengths that hold roughness, longest first; `only` the last few, 0: all.
+    """Octaves of wavelengths that hold roughness, longest first; the last `only`, 0: all.
 
     `q` is |q| of the components, of any shape and unit, `power` what each adds to the mean square
     height; at most `NOTHING` of the largest counts for none (a harmonic pattern has rounding errors

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the prediction contributes to a run: its start, and the waves that its grid omits."""
+"""The prediction for runs: initial pressure, and the part of mu_r/mu_s that is not resolved."""

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Predictions:
-    """The start of a run, and what the waves contribute that its grid does not resolve.
+    """The initial pressure of a run, and the part of mu_r/mu_s that its grid does not resolve.
 
     The package of the prediction is loaded on demand.
 

@@ -86,7 +86,8 @@ def shear_and_mises(stress: Array) -> tuple[Array, Array]:
     return root * np.sin(angle + np.pi / 3.0), np.sqrt(3.0) * root
 
 
-# Maximum number of lines along the motion whose material points are followed
+# Minimum number of lines along the motion whose material points are followed, if the contact has as
+# many; fewer than twice as many are
 LINES = 33
 # Minimum distance that a point moves in a complete history [semi-axes]: the diameter
 MIN_DISTANCE = 2.0

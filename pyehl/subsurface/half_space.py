@@ -171,7 +171,7 @@ class Images:
         periodic: tuple[bool, bool],
         mean: float,
     ) -> None:
-        # the effect of images decays as 1/distance for a line, as its square for a contact
+        # the effect of images decays as 1/distance for a line, as 1/distance^2 for a point contact
         far = FAR_LINE if any(periodic) else FAR
         self.falls = float(far if any(periodic) else far**2)
         self.blocks = blocks

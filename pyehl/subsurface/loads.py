@@ -104,8 +104,8 @@ def steep_edge(traction: Array | None) -> bool:
     """Whether a traction (nx, ny) ends in a step along x, or at the border of the grid.
 
     Then the stress along x is not finite at the surface (Johnson 1985, chapter 2.5). From the
-    second node to the last a traction that vanishes as the square root of the distance decreases by
-    30 %, a linear one by 50 %.
+    last node but one to the last a traction that vanishes as the square root of the distance
+    decreases by 30 %, a linear one by 50 %.
     """
     if traction is None:
         return False

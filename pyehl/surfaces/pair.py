@@ -21,7 +21,7 @@ a common period (:data:`pyehl.prediction.relative_positions.MAX_PASSAGES`)."""
 def composite_rms(tiles: Sequence[Topography], together: Topography | None = None) -> float:
     """Composite rms height [m] of one or two surfaces; `together` is their sum, if it is known.
 
-    Else the surfaces are uncorrelated, as in the mean over all relative positions.
+    Else they count as uncorrelated, as in the mean over all relative positions.
     """
     if together is None and len(tiles) == 1:
         return tiles[0].rms_height

@@ -152,7 +152,8 @@ def plain_tmd(data: bytes) -> bytes | None:
     if not data.startswith(TMD_MAGIC):
         return None
     end = data.find(b"\0", TMD_BEGIN)
-    # the data begin after the zero byte of the comment, without a comment, or after that of TrueMap
+    # the data begin after the zero byte of the comment, at once without a comment, or after a
+    # comment padded to 24 bytes
     for begin in (end + 1, TMD_BEGIN, TMD_BEGIN + len(TMD_COMMENT)):
         if begin < TMD_BEGIN or begin + 24 > len(data):
             continue
@@ -167,7 +168,7 @@ def plain_tmd(data: bytes) -> bytes | None:
 def nms_missing(path: Path) -> NDArray[np.bool_] | None:
     """Mark points (nx, ny) of a NMS file without height: those with the largest 16-bit integer.
 
-    None if the file is shorter than it states.
+    The scale of the heights ends at the integer below. None if the file is shorter than it states.
     """
     with path.open("rb") as stream:
         stream.seek(NMS_POINTS)

@@ -118,7 +118,7 @@ def hamrock_dowson_soft(
 
     Hamrock & Dowson 1978, J. Lubr. Technol. 100, 236-245. h_min agrees with the regime formula of
     textbooks, 8.70 g_E^0.67 (1 - 0.85 exp(-0.31 k)) (U/W)^2, within 1.2 % at U = 1e-8. The
-    constants of h_c are quoted from a secondary source and were not checked against another.
+    constants of h_c are quoted and were not checked against another source.
     """
     side_c, side_min = math.exp(-0.28 * ellipticity), math.exp(-0.31 * ellipticity)
     h_c = 7.32 * (1 - 0.72 * side_c) * speed**0.64 * load_number**-0.22
@@ -129,8 +129,8 @@ def hamrock_dowson_soft(
 def de_vicente(speed: float, load_number: float) -> float:
     """h_c/R [-] of a circular contact of soft bodies with constant viscosity, from U and W2.
 
-    de Vicente, Stokes & Spikes 2005, Tribol. Lett. 20, 273-286: quoted from a secondary source and
-    checked only against converged solutions (docs/howto/soft.md).
+    de Vicente, Stokes & Spikes 2005, Tribol. Lett. 20, 273-286: quoted, and checked only against
+    converged solutions (docs/howto/soft.md).
     """
     return 3.3 * speed**0.6 * load_number**-0.14
 

@@ -10,9 +10,9 @@ solved on the nodes of the centre line: with D = d/dX + i k, the flow along the 
 and D F - eps k_Y^2 Pi + (d/dX - i k (U - 1)) mu = 0, mu = rho (T - c H Pi). K^-1 * is the integral
 over X of (4/pi^2) K_0(kappa |X - X'|) exp(i k (X' - X)), kappa^2 = k_Y^2 + (exp(-gamma)/b)^2 with
 the semi-axis b across the motion and Euler's gamma: a wave across the motion deflects as in a strip
-as wide as the contact. Behind the last node the wave continues without leaking and fades towards
-the edge at X = 1. Nothing is fitted. The effect of the side flow of the smooth contact on the wave
-is neglected.
+as wide as the contact. Downstream of the last node the wave continues without leaking and fades
+towards the edge at X = 1. Nothing is fitted. The effect of the side flow of the smooth contact on
+the wave is neglected.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from pyehl.theory.transport import INLET, Flow, Zone, stiffness, upstream
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# Spacing of the nodes, first and last node, edge of the contact behind it [a]; INLET is a node
+# Spacing of the nodes, first and last node, downstream edge of the contact [a]; INLET is a node
 SPACING, START, END, EDGE = 1.0 / 64.0, -1.6, -0.6, 1.0
 # Quadrature of the kernel over a cell of constant pressure, except the cell with the singularity
 GAUSS = np.polynomial.legendre.leggauss(4)

@@ -199,7 +199,7 @@ class Lubricant:
         )
 
     def beyond(self, pressure: float) -> str:
-        """Return which conditions are outside the range of the constants at a pressure [Pa]."""
+        """Name conditions outside the range of the constants at a pressure [Pa]; '' if none is."""
         low, high = self.range_temperature_min, self.range_temperature_max
         words = ""
         if low < high and not low <= self.temperature <= high:

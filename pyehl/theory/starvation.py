@@ -12,7 +12,7 @@ HAMROCK_DOWSON_RANGE = {"ellipticity": (6.0, 6.0)}
 
 
 def position_reduction(position: float, film: float, constants: tuple[float, ...]) -> float:
-    """Film over the flooded one for a meniscus at `position` m [a] ahead of the centre.
+    """Film over the flooded one for a meniscus m = `position` [a] ahead of the centre.
 
     `film` is the flooded one [a^2/R]. ((m - 1)/(m* - 1))^c with m* = 1 + a film^b, 1 for m >= m*
     (Hamrock & Dowson 1977, part IV, J. Lubr. Technol. 99, 15-23); `constants` are a, b and c.

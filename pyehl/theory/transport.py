@@ -46,15 +46,17 @@ INLET = -0.8
 """Assumed beginning of the zone of high pressure on the centre line [a]."""
 
 # Ends of the steps from P = 0, where the wave leaks freely, to INLET; short where the leak falls
-# below the slip. Half the steps change T of the fitted waves by 0.005 at small slip, by 0.017 at
+# below the slip. Halving them changes T of the fitted waves by 0.005 at small slip, by 0.017 at
 # most, for a/32 at 20 % slip; the inlet was fitted with these steps
 APPROACH = np.concatenate(
     [np.arange(-1.2, -1.06, 0.025), np.arange(-1.05, -0.91, 0.0125), np.arange(-0.9, -0.79, 0.025)]
 )
 
-# Largest step in X behind INLET [a]. Half of it changes T by 0.001 at small slip, 0.008 at most
+# Largest step in X downstream of INLET [a]. Halving it changes T by 0.001 at small slip, by 0.008
+# at most
 STEP = 0.05
-# Behind this X the pressure falls too fast for slowly changing coefficients: eps' and P' are zero
+# Downstream of this X the pressure falls too fast for slowly changing coefficients: eps' and P' are
+# zero
 OUTLET = 0.6
 
 
@@ -295,7 +297,7 @@ SAMPLES = 256
 
 
 def harmonics(amplitudes: Complex) -> tuple[Array, Complex]:
-    """Wavenumbers (n,) [1/semi-axis] and Fourier parts (n, ...) of amplitudes on LINES."""
+    """Wavenumbers (n,) [1/semi-axis] and parts (n, ...) of amplitudes (lines, ...) on LINES."""
     y = PERIOD * (np.arange(SAMPLES) / SAMPLES - 0.5)
     places = np.concatenate([[-END, -1.0], LINES, [1.0, END]])
     held = np.pad(np.pad(np.eye(LINES.size), ((1, 1), (0, 0)), mode="edge"), ((1, 1), (0, 0)))
