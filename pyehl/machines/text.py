@@ -7,7 +7,9 @@ from typing import Any
 
 import pandas as pd
 
+from pyehl.machines.bearing import STATIC_PRESSURE
 from pyehl.machines.contact import OUTSIDE
+from pyehl.machines.equilibrium import BALL
 
 # Columns that are printed: label, factor, digits; a factor of 0 for text
 SHOWN: dict[str, tuple[str, float, int]] = {
@@ -57,8 +59,6 @@ SUMS: dict[str, tuple[str, float, str, str]] = {
 # Entries that need a friction coefficient, which a Newtonian oil does not give
 FRICTION = ("sliding_torque_N_m", "torque_N_m", "mu_mean", "sliding_power_W", "efficiency")
 NOTES = 4
-# Maximum pressure at the static rating of ball bearings (ISO 76) [Pa]
-STATIC_PRESSURE = 4.2e9
 
 
 def report(kind: str, table: pd.DataFrame, summary: Mapping[str, Any]) -> str:
@@ -82,7 +82,7 @@ def notes_of(table: pd.DataFrame, summary: Mapping[str, Any]) -> list[str]:
     notes = _together(str(note) for note in table["note"] if isinstance(note, str) and note)
     result = [*notes[:NOTES], *([f"and {len(notes) - NOTES} more"] if len(notes) > NOTES else [])]
     result = [f"note       {note}" for note in result]
-    if summary["hertz_pressure_max_Pa"] > STATIC_PRESSURE:
+    if summary["hertz_pressure_max_Pa"] > STATIC_PRESSURE[BALL]:
         result.append("steel      yields: the static limit of bearings is 4.2 GPa (ISO 76)")
     if summary.get("lambda_ratio_min", math.inf) < 1.0 and "h_min_rough_m" not in table:
         result.append(

@@ -111,11 +111,11 @@ class Edge:
             for k, part in zip(*harmonics(parts), strict=True):
                 there = qy + k / shape.ellipticity
                 q = np.hypot(qx, there)
-                depends = (q > 1e-9) & (q < ellipse.largest)
-                if depends.any():
-                    wave = qx[depends], there[depends]
-                    result[:, depends] += ellipse.correction(*wave) * part[depends]
-                    displacement[:, depends] += ellipse.displacement(*wave) * part[depends]
+                affected = (q > 1e-9) & (q < ellipse.largest)
+                if affected.any():
+                    wave = qx[affected], there[affected]
+                    result[:, affected] += ellipse.correction(*wave) * part[affected]
+                    displacement[:, affected] += ellipse.displacement(*wave) * part[affected]
         return cls(qx, qy, result, displacement, shape)
 
     def below(self, limit: float) -> Edge:

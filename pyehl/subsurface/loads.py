@@ -376,9 +376,9 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
 
     def pressures(k: int) -> Array:
         result = pressure.copy()
-        rough = contact.pressure + np.where(contact.inside, change(k)[..., 1], 0.0)
+        total = contact.pressure + np.where(contact.inside, change(k)[..., 1], 0.0)
         # cavitation, on `cavitated_share` of the contact in the prediction
-        result[inner] = np.maximum(rough, 0.0)
+        result[inner] = np.maximum(total, 0.0)
         return result
 
     def films(k: int) -> Array:
