@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Studies behind the figures: run as by ``pyehl sweep``, hence resumed and never repeated.
+"""Studies of the figures: run as by ``pyehl sweep``, hence resumed and never repeated.
 
 Each study is a folder with its journal and its table, whose rows the figures show.
 """

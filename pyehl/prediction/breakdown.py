@@ -2,7 +2,7 @@
 """Where the film of rough surfaces ends, and the cut-off with which there is a full film.
 
 With a measured surface some pixel nearly always touches. This is reported with its place, its
-height and its share of the contact, and the film is never clipped. A cut-off wavelength or a
+height and the fraction of the contact, and the film is never clipped. A cut-off wavelength or a
 threshold of spikes is suggested with which the film is full.
 """
 
@@ -46,9 +46,9 @@ def sustained_by(model: Model) -> Sustained:
 class BelowZero:
     """Where the film of one or two tiles ends."""
 
-    # Mean share of the Hertz area where it has ended, over a whole passage [-]
+    # Mean fraction of the Hertz area where it has ended, over a whole passage [-]
     share: float
-    # Least of what the film sustains less the deformed roughness [m], not positive where it ends
+    # Minimum of what the film sustains minus the deformed roughness [m], not positive where it ends
     deepest: float
     pixels: tuple[tuple[int, int], ...]  # (i, j) of each tile where it is
     # Pixels of one tile that pass through the contact and end the film; of two: not counted
@@ -107,7 +107,7 @@ def _strip(
 
 
 def _beyond(deformed: Array, column: Indices, smooth: Array, ended: Array) -> tuple[float, int]:
-    """Mean share of the contact in which one tile ends the film, and the pixels that do so."""
+    """Mean fraction of the contact in which one tile ends the film, and the pixels that do so."""
     inside, below = np.isfinite(smooth), 0
     # a pixel may pass through the contact on several rows of a small tile
     limit = np.full(deformed.shape[1], np.inf)
@@ -171,7 +171,7 @@ def _in_common_period(
 Full = Callable[[Topography], bool]
 """Whether a tile is under a full film."""
 FEW = 0.01
-"""Largest share of a map that counts as a few spikes: more is roughness, not dirt."""
+"""Largest fraction of a map that counts as a few spikes: more is roughness, not dirt."""
 CUT_OFF_TOLERANCE, THRESHOLD_TOLERANCE = 0.05, 0.1
 """Of a cut-off and of a threshold of spikes, relative."""
 MIN_THRESHOLD = 5.0

@@ -84,15 +84,15 @@ class RoughFriction:
     increase_rms: float
     increase_max: float
     pressure_max: float  # maximum pressure over the passage within INNER [Pa]
-    # Mean share of the contact with less film than psd.film_limit [-], and its error by that of the
-    # film; NaN without a limit
+    # Mean fraction of the contact with less film than psd.film_limit [-], and its error by that of
+    # the film; NaN without a limit
     below_limit: float
     below_limit_error: float
-    cavitated_share: float  # mean share of the contact where p_s + delta p <= 0 [-]
-    cavitated_friction: float  # bound of the share of the friction that comes from there [-]
+    cavitated_share: float  # mean fraction of the contact where p_s + delta p <= 0 [-]
+    cavitated_friction: float  # bound on the fraction of friction from there [-]
     # Maximum |integral of delta p|/w over the passage [-], before any load balance
     load_error: float
-    # Mean share of the contact where the film has ended, in the positions [-]
+    # Mean fraction of the contact where the film has ended, in the positions [-]
     ended: float
     # delta p and deformed roughness of each surface on the grid of its tile
     responses: tuple[Response, ...]
@@ -144,7 +144,7 @@ def too_high(height: float) -> str:
 def broken(friction: RoughFriction, sustained: float) -> RoughFriction:
     """Return a prediction whose film ends between its positions: no film, no ratio.
 
-    `sustained`: minimum of what the film sustains less the deformed roughness [m].
+    `sustained`: minimum of what the film sustains minus the deformed roughness [m].
     """
     ratios = ("mu_ratio", "mu_ratio_min", "mu_ratio_max", "position_error")
     lost = unknown(*ratios, "film_min", "cavitated_friction")

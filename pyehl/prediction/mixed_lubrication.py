@@ -46,8 +46,8 @@ from pyehl.theory.transport import stiffness
 from pyehl.types import Array, Indices, Mask, Settings
 
 HOLD = 0.01
-"""Bodies touch where the film exceeds the boundary film by less than this share, as in the solver
-(``fortran/reynolds/boundary_film.f90``)."""
+"""Bodies touch where the film exceeds the boundary film by less than this fraction, as in the
+solver (``fortran/reynolds/boundary_film.f90``)."""
 OPEN = 1.0
 """Film outside of the contact [a^2/R]: any value, since there is no heat without pressure."""
 MIN_LEFT = 0.02
@@ -283,9 +283,9 @@ TOUCHING_FILM_ERROR = 0.45
 """Error of the film at which bodies touch, of the rms height of the deformed surface
 (docs/evidence/partial)."""
 WAVE_POINTS, SHORTER, CONTACT_POINTS = 8, 1e-3, (60.0, 128.0)
-"""Points of the shortest waves, as many as a grid needs to resolve them; the share of the variance
-that shorter ones may have; the fewest points per shorter semi-axis, as without a boundary film, and
-the most: the time grows with their square."""
+"""Points of the shortest waves, as many as a grid needs to resolve them; the fraction of the
+variance that shorter ones may have; the minimum of points per shorter semi-axis, as without a
+boundary film, and the maximum: the time grows with its square."""
 
 # Why contact at a boundary film is not predicted, or its errors are not known
 OF_TWO = "contact at a boundary film is predicted of one rough surface"

@@ -81,7 +81,7 @@ class ModelOptions:
     # Whether the semi-ellipse loses the load that delta p carries inside the contact: a Hertz
     # contact under the remaining load, p_h and a scaled by its cube root
     load_balance: bool = False
-    # Film below which the share of the contact is reported [m]; 0: none
+    # Film below which the fraction of the contact is reported [m]; 0: none
     film_limit: float = 0.0
     # Positions of the surface over one passage; 0: doubled until mu_r/mu_s is resolved
     positions: int = 0

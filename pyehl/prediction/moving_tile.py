@@ -392,7 +392,7 @@ class LineTile:
         self.free_places = self.places + slipped(self.places, lines, ratio, bent=bent)
 
     def _rows(self, places: Array) -> tuple[NDArray[np.int32], Single]:
-        """Row of the waves before places [a], and the share of the next one."""
+        """Row of the waves before places [a], and the weight of the next one."""
         at = places * self.scale
         low = np.floor(at)
         return low.astype(np.int32), (at - low).astype(np.float32)

@@ -261,7 +261,7 @@ class RoughContact(ShearedContact):
     def _outer_of_strip(
         self, contact: SmoothContact, strip: StripEdge, i: Indices, j: Indices
     ) -> tuple[NDArray[Any], ...]:
-        """Points (n,) of a line contact as `_outer` has them: both edges, one behind the other."""
+        """Points (n,) of a line contact as `_outer` has them: both edges, one after the other."""
         step = contact.x[1] - contact.x[0]
         at = self.y[j] % strip.width * (strip.places / strip.width)
         place = np.minimum(np.floor(at).astype(np.int32), strip.places - 1)

@@ -19,12 +19,7 @@ from pyehl.contact.smooth import SmoothContact, solve_contact
 from pyehl.errors import EhlError, InputError, InternalError
 from pyehl.handle import SolverHandle, start_fronts, take_start
 from pyehl.prediction.friction import mean
-from pyehl.prediction.model import (
-    Model,
-    ModelOptions,
-    RoughSurface,
-    model_error,
-)
+from pyehl.prediction.model import Model, ModelOptions, RoughSurface, model_error
 from pyehl.prediction.moving_tile import REACH, Component, line_weights, slipped, station_weights
 from pyehl.prediction.predict import turned
 from pyehl.prediction.response import Transfer

@@ -12,11 +12,7 @@ from pyehl.case import Case
 from pyehl.contact.smooth import solve_contact
 from pyehl.errors import EhlError, InputError
 from pyehl.prediction.friction import run_and_below
-from pyehl.prediction.model import (
-    Model,
-    ModelOptions,
-    RoughSurface,
-)
+from pyehl.prediction.model import Model, ModelOptions, RoughSurface
 from pyehl.prediction.predict import unpredictable
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
@@ -29,7 +25,7 @@ NODES = 8
 ON_GRID = 2
 """Nodes that a wave needs to be on the grid at all."""
 TOLERANCE = 0.01
-"""Share of mu_r/mu_s by waves that are not resolved, above which there is a warning."""
+"""Fraction of mu_r/mu_s from waves that are not resolved, above which there is a warning."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +102,7 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
     if not operating.ellipse.is_line:
         # the cells of a strip are nearly square
         mesh = max(mesh, 2.0 * float(grid["y_extent"]) / (int(grid["points_y"]) - 1))
-    # the amplitude of one of two surfaces may be a share of the film; else that is not needed
+    # the amplitude of one of two surfaces may be relative to the film; else that is not needed
     film = formula_film(operating, lubricant) if len(groups) > 1 else 0.0
     result = [_tile(settings, group, (tiles or {}).get(group), operating, film) for group in groups]
     shortest = NODES * mesh * operating.hertz_radius

@@ -22,7 +22,7 @@ __all__ = [
     "outside",
 ]
 
-# Conditions of the numerical cases behind the Hamrock-Dowson formulas (J. Lubr. Technol. 99,
+# Conditions of the numerical cases of the Hamrock-Dowson formulas (J. Lubr. Technol. 99,
 # 1977, 264): 34 cases, speed over nearly two decades, load over one, bronze to silicon nitride.
 HAMROCK_DOWSON_RANGE = {
     "U": (1.68e-12, 5.05e-11),

@@ -6,7 +6,8 @@ A Re T exp(i(...)): T is the complex ratio of deformed to undeformed amplitude, 
 wave and of the position. Lengths along the surface are scaled by the Hertz radius a, films by
 a^2/R, pressures by p_h, times by a/u; k > 0.
 
-Behind the inlet the film wave follows the transport equation of :mod:`pyehl.theory.transport`.
+Downstream of the inlet the film wave follows the transport equation of
+:mod:`pyehl.theory.transport`.
 
 The inlet transfer G = mu/rho at X = -0.8 on the centre line, with its phase referred to X = -1,
 describes the effect of the inlet. For waves that are short compared with the inlet the transport
