@@ -103,8 +103,8 @@ def without_axes(rows: Array, header: Sequence[str], cells: Cells) -> tuple[Arra
     else:
         return _rising(rows, along, across)
     raise ValueError(
-        f"the first {name} grows as an axis does, and not in equal steps: a map needs equal steps "
-        "(places with more digits), and heights alone"
+        f"the first {name} grows as an axis does, but not in equal steps: a map needs equal steps "
+        "(positions with more digits), or a table of heights only"
     )
 
 
@@ -137,5 +137,5 @@ def _rising(rows: Array, along: Array | None, across: Array | None) -> tuple[Arr
         name for name, axis in (("line", along), ("column", across)) if axis is not None
     )
     if all(_is_numbering(axis) for axis in result):
-        return rows, Axes(None, f"numbers of pixels and no heights: the first {names}")
-    return rows, Axes((steps[0], steps[1]), f"places and no heights: the first {names}")
+        return rows, Axes(None, f"numbers of pixels, not heights: the first {names}")
+    return rows, Axes((steps[0], steps[1]), f"positions, not heights: the first {names}")

@@ -322,7 +322,7 @@ def test_axes_are_no_heights(tmp_path: Path, corner: str | None):
     for down in (False, True):
         path = write(tmp_path / "table.csv", with_axes(corner, down))
         note = check(path, height_unit="um")
-        assert "places and no heights: the first line and column" in note
+        assert "positions, not heights: the first line and column" in note
         with pytest.raises(InputError, match=r"steps of 1\.5, .* surface\.lateral_unit"):
             read_scan(path)
 
@@ -345,8 +345,8 @@ def test_tables_of_pandas(tmp_path: Path):
     names = ",".join(f"c{i}" for i in range(NX))
     for text in (["," + numbers, *index], index, [numbers, *lines(",")], ["," + names, *index]):
         path = write(tmp_path / "frame.csv", text)
-        assert "numbers of pixels and no heights" in check(path, height_unit="um", **size)
-        with pytest.raises(InputError, match=r"numbers of pixels .* give surface\.length_x"):
+        assert "numbers of pixels, not heights" in check(path, height_unit="um", **size)
+        with pytest.raises(InputError, match=r"numbers of pixels, .* give surface\.length_x"):
             read_scan(path, height_unit="um")
 
 
