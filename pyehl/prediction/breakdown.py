@@ -3,7 +3,8 @@
 
 With a measured surface some pixel nearly always touches. This is reported with its place, its
 height and the fraction of the contact, and the film is never clipped. A cut-off wavelength or a
-threshold of spikes is suggested with which the film is full.
+threshold of spikes is suggested with which the film is full, and a cut-off with which mu_r/mu_s is
+in the range of the model where it is not.
 """
 
 import math

@@ -6,14 +6,14 @@ boundary film (``lubricant.boundary_film``; under pressure it is compressed as t
 pressure p_c of contact lifts it. It bends the surfaces as if the roughness r were r - p_c/K there,
 K being the stiffness of the half-space, and the fluid flattens that as it does any roughness. So
 the loss of film falls by T p_c/K and the pressure grows by T p_c, T by the response for waves that
-move with the lubricant as the films of touching nodes do. For waves as long as the contact T is
+move with the lubricant as the films of nodes in contact do. For waves as long as the contact T is
 near zero: solid contact then takes load from the fluid, and the mean film remains that of the
 inlet.
 
 The mean film is thicker where contact would otherwise sustain more than the load, and by the mass
 defect of the boundary film. A column of lubricant that a peak has passed has at least the thickness
-of the boundary film. So its mass defect is the largest deficit on the way through the contact, on
-which peaks that slip pass it one after the other, and all films are thicker by the mean s of that:
+of the boundary film. So its mass defect is the largest deficit during its passage, in which peaks
+that slip pass it one after the other, and all films are thicker by the mean s of that:
 
     s = < max(0, h_b - h_min - s) >,   h_min the minimum film of the column during its passage.
 
@@ -21,6 +21,8 @@ Without roughness this is not the solution of the smooth contact: the boundary f
 of its inlet thinner there. The change of all films with which this contact has the load share of
 that solution is the error of the films, and friction is relative to the smooth contact with films
 changed so. Compared with the full simulation in docs/evidence/partial.
+
+:func:`mixed_film` returns means over the passage of a tile, their errors, and why one is missing.
 """
 
 from __future__ import annotations
