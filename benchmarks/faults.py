@@ -55,7 +55,7 @@ def campaign(folder: Path, *, seed: int = 1, kills: int = 200, inputs: int = 200
     ):
         say(f"{name}: {round(share * kills)}")
         rows.append(_row(name, *work(folder, generator, max(1, round(share * kills)))))
-    say("bytes of a state flipped, region by region")
+    say("bytes of a checkpoint flipped, region by region")
     rows.append(_row("damaged states", *damage(folder, generator)))
     say(f"mutated inputs: {inputs}")
     rows.append(_row("mutated inputs", *mutated(folder, seed, inputs)))
@@ -220,7 +220,7 @@ def damage(folder: Path, generator: np.random.Generator) -> Found:
     run(folder, "run", "case.nml", "-o", "state", "--set", "time.steps=60")
     kept = folder / "state.checkpoint"
     if not kept.is_dir():
-        return 0, {}, ["a run that ended early has left no state"]
+        return 0, {}, ["a run that ended early has left no checkpoint"]
     whole = folder / "resumed"
     _copy(folder, whole)
     run(folder, "run", "--resume", "resumed", "--set", "time.steps=62")

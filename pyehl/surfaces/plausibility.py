@@ -16,7 +16,7 @@ APART = 0.5
 OFTEN, TIMES = 5, 8
 """A height is frequent if it occurs OFTEN times, and TIMES as often as any other value."""
 RANGES = 2.0
-"""Distance of an isolated height from all others, over their range."""
+"""Minimum distance of an isolated height from all others, over their range."""
 STEEP = 1.0
 """Slope of 45 degrees."""
 SAMPLE = 2**17
