@@ -184,13 +184,13 @@ sp | mu | - | coefficient of friction of the rough contact, with heat where it m
 sp | mu_smooth | - | coefficient of friction of the smooth contact, with heat where it matters
 sp | mu_isothermal | - | mu without heat
 sp | mu_smooth_isothermal | - | mu_smooth without heat
-sp | temperature_rise_max_K | K | maximum rise of the mean film temperature; rough: at the end
+sp | temperature_rise_max_K | K | maximum temperature rise (mean across the film); rough: at the end
 sp | temperature_rise_wall_1_max_K | K | maximum temperature rise of the surface of body 1
 sp | temperature_rise_wall_2_max_K | K | maximum temperature rise of the surface of body 2
 sp | boundary_film | a^2/R | boundary film at ambient pressure
 sp | contact_load_share | - | load share of solid contact: a mean like mu_ratio, or over a duty
 sp | contact_load_share_error | - | the sum of its parts; in a prediction the error due to the film
-s | contact_load_share_error_grid | - | part of that error due to the grid, from two grids
+s | contact_load_share_error_grid | - | part of contact_load_share_error due to the grid (two grids)
 s | contact_load_share_error_stop | - | part of contact_load_share_error due to the end of the run
 sp | contact_load_share_error_note | | reason if contact_load_share_error is not known
 sp | contact_area_share | - | area of solid contact over that of the dry contact
@@ -280,8 +280,8 @@ p | positions | - | positions of the tile over a passage
 p | position_error | - | relative error of mu_ratio due to the number of positions
 p | reduction | | model of the flattening of waves
 p | smooth | | source of the smooth contact in the prediction
-pr | velocity_ratio | - | velocity of the rough surface over the mean one
-p | second_velocity_ratio | - | velocity of the second rough surface over the mean one
+pr | velocity_ratio | - | velocity of the rough surface over the mean velocity
+p | second_velocity_ratio | - | velocity of the second rough surface over the mean velocity
 p | wavelength_convention | | definition of the wavelength of a component
 p | stiffness | | stiffness of the half-space
 p | viscosity_law | | viscosity under pressure
@@ -323,7 +323,7 @@ f | formulas | | result of each film formula
 r | waves | - | number of waves whose response was measured
 r | tiers | | runs of the measured waves: grid, tile, waves, film, residual of the fit
 r | shipped_difference_rms | - | rms difference from the response used by the prediction, at X = 0
-r | shipped_difference_max | - | maximum difference from that response, at X = 0
+r | shipped_difference_max | - | maximum difference from the response of the prediction, at X = 0
 r | within_fitted_range | | whether the case lies in the range of the fitted response
 """
 

@@ -79,7 +79,9 @@ class Surface:
         "distance after which a feature repeats along a line contact; 0: 4, or 4 times its size",
     )
     file: str = path("height map of kind 'map': .npy, text, instrument file")
-    channel: str = text("channel of an instrument file: its name, or its number from 1")
+    channel: str = text(
+        "channel of an instrument file: name, or number from 1; '': its first height channel"
+    )
     length_x: float = real(
         0.0, "m", "0 or [1e-9, 1]", "size of the map along X; 0: that of the file; fractal: 8.29e-4"
     )
