@@ -201,8 +201,8 @@ def _damping(data: list[Collapsed], eq_16: tuple[float, float], level: Level) ->
         f"scheme of the paper and {narrow:.3f} under the narrow scheme; eq. 16 gives "
         f"{float(evaluate(np.array(theta), *eq_16)):.3f}. The paper discretises wedge and squeeze "
         "separately, which damps a wave while it moves through the contact: a fraction "
-        f"exp(-h_x^3 k^4 (X + 1)/2) = {left:.2f} of its amplitude is left at the centre. Its "
-        "effect is that of complete flattening of the roughness: pressure and friction are too "
+        f"exp(-h_x^3 k^4 (X + 1)/2) = {left:.2f} of its amplitude is left at the centre. This "
+        "damping acts like complete flattening of the roughness: pressure and friction are too "
         "high. The narrow scheme transports a wave at the mean velocity without damping."
     )
     return [Finding("Damping of the paper's scheme on its grid", text)]
