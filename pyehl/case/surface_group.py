@@ -135,7 +135,7 @@ class Surface:
         0.0,
         "m",
         "[-1, 1]",
-        "position across the motion of the line through the centre of the contact",
+        "position across the motion of the line that passes the centre of the contact",
     )
     tile_x: float = real(
         0.0,
