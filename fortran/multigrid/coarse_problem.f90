@@ -9,7 +9,7 @@
 !>    correction    P <- P + interpolated (P - bar P) of the coarse level        p_change, h_change
 !>
 !> The coarse level stores the right-hand sides of film and Reynolds equation; the fine level's do not change.
-!> Grids may be coarser along X, along Y or along both. Without a boundary film the procedures of touching nodes do nothing.
+!> Grids may be coarser along X, along Y or along both. Without a boundary film the procedures of nodes in contact do nothing.
 module ehl_coarse_problem
    use ehl_alcouffe, only: transfer_t
    use ehl_flow, only: dir_x
