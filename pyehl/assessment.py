@@ -221,9 +221,7 @@ def _heat(s: Summary) -> list[str]:
     rise = s.number("flash_temperature_K")
     if not _finite_above(rise, HOT) or s.known("temperature_rise_max_K"):
         return []
-    return [
-        f"the flash temperature rise is {rounded(rise)} K, which the oil of the model does not have"
-    ]
+    return [f"the flash temperature rise is {rounded(rise)} K, which the model neglects in the oil"]
 
 
 def _two_alike(s: Summary) -> list[str]:
@@ -255,12 +253,12 @@ def _slenderness(s: Summary) -> list[str]:
         strain = "" if ellipse else f" (p_h/E' = {rounded(wide / math.pi, 2)})"
         result.append(
             f"the contact radius is {rounded(wide, 2)} of the radius of curvature{strain}, a "
-            f"strain of about {percent(MEAN_STRAIN * wide)}, and the half-space is for small "
-            "strains"
+            f"strain of about {percent(MEAN_STRAIN * wide)}, and the half-space model holds for "
+            "small strains"
         )
     if _finite_above(thick, SLENDER_FILM):
         result.append(
-            f"the film is {rounded(thick, 2)} of the radius, and the Reynolds equation is for "
+            f"the film is {rounded(thick, 2)} of the radius, and the Reynolds equation holds for "
             "slender gaps"
         )
     return result

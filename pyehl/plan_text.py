@@ -43,7 +43,7 @@ def making_text(pixels: int) -> str:
         return ""
     return (
         f"surface    {pixels} x {pixels} pixels take about {memory(PIXEL_BYTES * count)} of memory "
-        f"and {_duration(PIXEL_SECONDS * count)} to make"
+        f"and {_duration(PIXEL_SECONDS * count)} to generate"
     )
 
 
@@ -56,8 +56,8 @@ def _contact(v: Values) -> Iterator[str]:
         yield f"{INDENT}a = {power(v['length'], 4)} m, p_h = {power(v['pressure'], 4)} Pa"
     if v["line"]:
         yield (
-            "line       M and L are those of a line, a = b half its width; the round contact with "
-            f"the same speed parameter has M = {digits(v['round_m'])}"
+            "line       M and L are those of a line, a = b is half its width; the round contact "
+            f"with the same speed parameter has M = {digits(v['round_m'])}"
         )
     elif v["roller"]:
         yield (
@@ -114,7 +114,7 @@ def _friction(v: Values, settings: Settings) -> Iterator[str]:
         yield (
             "heat       shear heating of the inlet (Gupta et al. 1992): film times "
             f"{fixed(v['thermal_reduction'], 4)} by an inlet viscosity of "
-            f"{power(v['inlet_viscosity'], 3)} Pa s, which M and L belong to"
+            f"{power(v['inlet_viscosity'], 3)} Pa s, from which M and L follow"
         )
 
 
@@ -135,9 +135,9 @@ def _surfaces(v: Values, settings: Settings) -> Iterator[str]:
     if count > 1 and v["move"] and not (v["some_stationary"] or v["pass_once"] or v["duty"]):
         yield INDENT + _common_period(v)
     if v["some_stationary"]:
-        yield f"{INDENT}the smooth contact is solved before, then the one with what is at rest"
+        yield f"{INDENT}the smooth contact is solved first, then that with the roughness at rest"
     else:
-        yield f"{INDENT}the smooth contact is solved once, before"
+        yield f"{INDENT}the smooth contact is solved once, at first"
     if v["move"] and not v["duty"]:
         yield from _time(v)
     if v["coarse_run"]:
@@ -151,7 +151,7 @@ def _duty(v: Values, settings: Settings) -> Iterator[str]:
         return
     duty = settings["duty"]
     names = [key for key, value in duty.items() if isinstance(value, tuple) and key != "time"]
-    steps = f"in about {v['duty_steps']:.0f} time steps" if v["duty_steps"] else "nothing moves"
+    steps = f"in about {v['duty_steps']:.0f} time steps" if v["duty_steps"] else "no surface moves"
     yield (
         f"duty       {', '.join(names)} at {len(duty['time'])} times, {duty['interpolation']}; to "
         f"{power(v['duty_end'], 4)} s: {steps}"
@@ -176,14 +176,14 @@ def _member(v: Values, number: int) -> dict[str, Any]:
 
 def _surface(v: Values, s: Values, settings: Settings) -> str:
     """Say what a surface is and how it moves."""
-    still = f" at rest{'' if v['move'] else ', steady'}; "
+    still = f" at rest{'' if v['move'] else ', steady contact'}; "
     velocity = f", velocity ratio {fixed(s['velocity_ratio'], 4)}"
     start = f"X = x_start = {fixed(s['x_start'], 4)}"
     if "width" not in s:
         period = f"period {fixed(s['period'], 3)} a"
         if s["at_rest"]:
-            return f"roughness{still}{period}, it is everywhere, its origin at {start}"
-        return f"roughness on the move, {period}{velocity}"
+            return f"roughness{still}{period}, over the whole domain, its origin at {start}"
+        return f"moving roughness, {period}{velocity}"
     kind = f"a {settings[s['group']]['kind']}"
     if s["at_rest"]:
         text = f"{kind}{still}its centre at {start}"
@@ -209,7 +209,7 @@ def _common_period(v: Values) -> str:
     if v["mismatch"] > 0.0:
         return (
             f"no common period: means over {v['repeats']} periods of the slowest, {period},\n"
-            f"{INDENT}after which a surface misses its start by {fixed(v['mismatch'], 4)} of a "
+            f"{INDENT}after which a surface is off its start by {fixed(v['mismatch'], 4)} of a "
             "period; the error of that is part of mu_ratio_error"
         )
     return f"both repeat after {period}, {v['repeats']} periods of the slowest"
@@ -222,7 +222,7 @@ def _time(v: Values) -> Iterator[str]:
     if v["predicted_start"]:
         yield "start      with the contact full of roughness, from the prediction"
     if "fallback_reason" in v:
-        yield f"start      behind a front, with no prediction: {v['fallback_reason']}"
+        yield f"start      behind a front, without a prediction: {v['fallback_reason']}"
     if v["steps"] > 0:
         yield f"end        after {v['steps']} steps"
     elif v["pass_once"]:
@@ -297,9 +297,9 @@ def _domain(v: Values) -> Iterator[str]:
         pressure += ", the position of the meniscus"
         if v["layer"] > 0.0:
             pressure = f"P = 0; an oil layer of {digits(v['layer'])} a^2/R"
-    half = "the whole of it is solved"
+    half = "the whole domain is solved"
     if v["mirror"]:
-        half = "symmetric in Y: the half Y >= 0 is solved"
+        half = "symmetric in Y: only Y >= 0 is solved"
     if v["line"]:
         width = v["strip_width"]
         half = f"a strip of {digits(width)} that repeats along Y" if width else "one row of nodes"
@@ -346,7 +346,7 @@ def _need(v: Values) -> Iterator[str]:
     if v["target_error"] > 0.0:
         text += ", if it reaches the finest grid"
     if v.get("move") and not v["steps"] and not v["duty"]:
-        text += ", if it ends as early as it can"
+        text += ", if the mean settles at the earliest time"
     yield text
     minimum, maximum = v["frames_min"], v["frames_max"]
     if maximum > 0.0:

@@ -18,22 +18,22 @@ NO_SIZE = "moes_m and moes_l give no sliding speed in m/s"
 VANISHING = "there is no sliding: the ratio is that of vanishing sliding"
 WITH_HEAT = "with the temperature of film and walls; pressure and film thickness are isothermal"
 OF_ROUGH = (
-    "mu has the heat of the rough contact, and mu_smooth with its own is left out: "
+    "mu includes the heating of the rough contact; mu_smooth with its own heating is omitted: "
     "mu_isothermal = mu_ratio mu_smooth_isothermal"
 )
-"""Why there is no mu_smooth beside the mu of a rough contact with heat."""
+"""Why there is no mu_smooth with the mu of a rough contact with frictional heating."""
 NOT_CONVERGED = "the temperature is not converged"
 REASONS = {
     1: "there is no solution",
     2: "two coarser grids with a solution are needed",
-    3: "the change from grid to grid does not decrease: no limit is in sight",
+    3: "the change from grid to grid does not decrease: no extrapolation is possible",
     4: "the domain is too small to determine the film of a flooded contact: leave out "
     "grid.x_inlet, or give one farther away",
     5: NO_INLET + ", which may be why the bodies touch: grid.points = {points_for_inlet} or more",
     6: "the grid is too coarse for a solution at this load: grid.points = {points_for_solution} or "
     "more",
     7: "the ends of a narrow contact need shorter cells across the motion: grid.y_extent = "
-    "{narrow_y_extent}, grid.points_y = {narrow_points_y} and solver.max_cycles = 100 may do",
+    "{narrow_y_extent}, grid.points_y = {narrow_points_y} and solver.max_cycles = 100 may suffice",
     8: "there is no solution on the next coarser grid",
     9: "the next coarser grid does not resolve the inlet, which may be why the bodies touch on it",
     10: "most of the load is on a boundary film that would have to supply much of the flow: the "
@@ -46,7 +46,7 @@ REASONS = {
     15: ALONE + ": it resolves nothing of the surface",
     16: ALONE + ": grid.points is too small for one",
     17: "the run on the next coarser grid ended with the status '{coarser_status}'{coarser_why}",
-    18: "pressures change so much from grid to grid that no limit is in sight",
+    18: "pressures change too much from grid to grid to be extrapolated",
     19: "there is no mu_ratio",
     20: "{few_positions}",
     21: "the contribution of the omitted waves is not predicted (pyehl run does)",
@@ -167,9 +167,9 @@ def law_note(settings: Settings, hertz_pressure: float) -> str:
     ranges += [f"up to {power(pressure, 3)} Pa"] if pressure > 0.0 else []
     text += f"measured {' and '.join(ranges)}"
     if temperatures and not low <= s["temperature"] <= high:
-        text += ", BEYOND in temperature"
+        text += "; the temperature is outside this range"
     if law == own and 0.0 < pressure < hertz_pressure:
-        text += f", BEYOND in pressure: p_h = {power(hertz_pressure, 3)} Pa"
+        text += f"; the pressure is above it: p_h = {power(hertz_pressure, 3)} Pa"
     return text
 
 
@@ -249,7 +249,7 @@ def _why_no_result(results: Results, settings: Settings, words: Mapping[int, str
         if "coarser_end_phase" in d:
             place = f"the run for the grid error: {_place(d, 'coarser_end_')}"
         resumes = "; --resume continues from there" if d["end_phase"] == STEPS else ""
-        return f"stopped from outside in {place}{resumes}"
+        return f"interrupted in {place}{resumes}"
     return _of_mean(d, settings["time"]) if status == "not settled" else ""
 
 

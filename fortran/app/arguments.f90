@@ -139,7 +139,7 @@ contains
              " sheet" // newline &
              // "             or two bodies is resolved by 'pyehl check CASE.nml --resolved out.nml'" // newline &
              // "  -o DIR     folder for the results: new, empty, or of an earlier run" // newline &
-             // "  --force    take a folder with other files, which stay" // newline &
+             // "  --force    accept a folder with other files and keep them" // newline &
              // "  --set      replace a value of the case, any number of times" // newline &
              // "  --resume   resume the interrupted run in DIR; results are bitwise identical" // newline &
              // "  --quiet    print nothing but errors" // newline &

@@ -42,7 +42,8 @@ contains
             if (key /= "") call source%refuse(key, key//" without a table", "values at duty.time", status)
             return
          end if
-         if (.not. input%contact%si) call refuse("time", "a duty of a contact by Moes numbers", "contact.load, mean_velocity, "// &
+         if (.not. input%contact%si) call refuse("time", "a duty with a contact given by Moes numbers", &
+                                                 "contact.load, mean_velocity, "// &
                                                  "radius and reduced_modulus: a duty is in SI units")
          if (n < 2) call refuse("time", "a single time", "two rows or more")
          do k = 2, n
@@ -60,7 +61,8 @@ contains
                         "both, or duty.mean_velocity and duty.slide_to_roll")
          end if
          if (size(d%list("u1")) > 0 .and. (size(d%list("mean_velocity")) > 0 .or. size(d%list("slide_to_roll")) > 0)) then
-            call refuse("u1", "duty.u1 beside duty.mean_velocity or duty.slide_to_roll", "the speeds one way")
+            call refuse("u1", "duty.u1 together with duty.mean_velocity or duty.slide_to_roll", &
+                        "either u1 and u2, or mean_velocity and slide_to_roll")
          end if
          numbers = d%list("load")
          minimum = min_load*input%contact%size_of_load()
@@ -83,10 +85,10 @@ contains
          if (source%first_given("time") /= "") call source%refuse(source%first_given("time"), source%first_given("time")// &
             " with a duty", "none of &time: the table says how long, duty.time_step and duty.target_error how finely", status)
          if (input%grid%border == "flooded") call source%refuse("grid.border", "grid.border = 'flooded' with a duty", &
-            "'zero': the pressure at a border that the duty moves is not known", status)
+            "'zero': a duty changes the distance of the border, and the flooded pressure there is not known", status)
          if (d%reverses() .and. abs(input%grid%x_inlet + input%grid%x_outlet) > 1.0e-9_dp*input%grid%x_outlet) then
             call source%refuse("grid.x_inlet", "a domain from "//to_text(input%grid%x_inlet)//" to "// &
-                               to_text(input%grid%x_outlet)//" a, and the mean velocity turns", &
+                               to_text(input%grid%x_outlet)//"a, and the mean velocity changes sign", &
                                "an inlet on both sides: x_outlet = -x_inlet", status)
          end if
          if (input%grid%target_error > 0.0_dp) call source%refuse("grid.target_error", "grid.target_error with a duty", &

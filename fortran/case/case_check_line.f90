@@ -23,7 +23,7 @@ contains
       if (.not. input%contact%is_line()) then
          key = source%first_given("contact", line_keys)
          if (key /= "") call source%refuse(key, key//" in a point contact", shape//", or "//key_of_point(key)// &
-                                           " of a point: M and L of a line are other numbers", status)
+                                           " of a point: M and L of a line are defined differently", status)
          return
       end if
       key = source%first_given("contact", point_keys)
@@ -31,10 +31,10 @@ contains
       if (status%failed()) return
       if (source%given("grid.y_extent")) key = "grid.y_extent"
       if (source%given("grid.points_y")) key = "grid.points_y"
-      if (key /= "") call source%refuse(key, key//" with "//shape, "none: the strip is as wide as the surfaces "// &
-                                        "repeat, its cells are nearly square", status)
+      if (key /= "") call source%refuse(key, key//" with "//shape, "none: the strip is one period of the surfaces "// &
+                                        "wide, its cells are nearly square", status)
       if (source%given("solver.deflection") .and. input%solver%deflection /= "fft") call source%refuse("solver.deflection", &
-         "solver.deflection = 'mlmi' with "//shape, "'fft': a strip that repeats has no multi-integration", status)
+         "solver.deflection = 'mlmi' with "//shape, "'fft': multi-integration is not available for a periodic strip", status)
       if (input%lubricant%thermal_friction == "always" .and. .not. abs(input%contact%slide_to_roll) < 2.0_dp) then
          call source%refuse("lubricant.thermal_friction", "lubricant.thermal_friction = 'always' with a wall at rest under an "// &
                             "infinite line, whose temperature has no limit", "'auto' or 'never', or a slide_to_roll between "// &
@@ -64,7 +64,7 @@ contains
       case ("contact.load")
          words = "contact.load_per_length [N/m]"
       case ("contact.moes_m", "contact.moes_l")
-         words = key//"_line: M and L of a line are other numbers than those of a point"
+         words = key//"_line: M and L of a line are defined differently from those of a point"
       case ("contact.radius_x", "contact.radius_y", "contact.radius_ratio")
          words = "contact.radius alone: a line is not curved across the motion"
       case default

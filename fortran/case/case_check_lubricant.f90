@@ -100,7 +100,7 @@ contains
                      "a number in [0.001, 2] under Roelands' law; or viscosity_law = 'barus', which has no roelands_z")
          call refuse(l%limiting_stress > 0.0_dp .and. source%given("lubricant.limiting_coefficient"), &
                      "lubricant.limiting_coefficient", "beside limiting_stress", "one of the two, or limiting_stress = 0.0")
-         call refuse(l%shear_law /= "newtonian" .and. .not. c%si, "lubricant.shear_law", "with a contact by Moes numbers", &
+         call refuse(l%shear_law /= "newtonian" .and. .not. c%si, "lubricant.shear_law", "with a contact given by Moes numbers", &
                      "'newtonian', or "//si_units)
          call refuse(l%shear_law == "carreau" .and. .not. (l%carreau_stress > 0.0_dp .and. l%carreau_exponent > 0.0_dp), &
                      "lubricant.shear_law", "'carreau' without carreau_stress and carreau_exponent", "both, as measured")
@@ -108,7 +108,7 @@ contains
                      "without lubricant.boundary_film: no solid contact", "a boundary_film in m, or boundary_friction = 0.0")
          call refuse(c%hardness > 0.0_dp .and. .not. l%boundary_film > 0.0_dp, "contact.hardness", &
                      "without lubricant.boundary_film: no solid contact", "a boundary_film in m, or hardness = 0.0")
-         call refuse(l%boundary_film > 0.0_dp .and. .not. c%si, "lubricant.boundary_film", "with a contact by Moes numbers", &
+         call refuse(l%boundary_film > 0.0_dp .and. .not. c%si, "lubricant.boundary_film", "with a contact given by Moes numbers", &
                      "0.0, or "//si_units)
          call refuse(c%hardness > 0.0_dp .and. .not. c%hardness > scales%pressure, "contact.hardness", &
                      "not above the Hertz pressure of "//short(scales%pressure)//" Pa: smooth bodies would yield", &
@@ -135,7 +135,7 @@ contains
       !> Heating needs a velocity in m/s and the temperature dependence of the viscosity
       subroutine check_heat(key, or)
          character(len=*), intent(in) :: key, or
-         call refuse(.not. input%contact%si, key, "with a contact by Moes numbers", si_units//", or "//or)
+         call refuse(.not. input%contact%si, key, "with a contact given by Moes numbers", si_units//", or "//or)
          call refuse(.not. input%lubricant%temperature_viscosity > 0.0_dp, key, unknown, "temperature_viscosity, or "//or)
       end subroutine check_heat
    end subroutine check_lubricant
@@ -176,7 +176,7 @@ contains
          character(len=*), parameter :: group = "lubricant."
 
          if (abs(value - follows) > rounding*follows) call source%refuse(group//key, group//key//" = "//to_text(value)// &
-            ", and the law or the data sheet gives "//short(follows), key//", or what gives it", status)
+            ", and the law or the data sheet gives "//short(follows), key//", or the values that it follows from", status)
          call source%check_range(group//key, value, group//key, "the law", status)
       end subroutine agree
    end subroutine check_inlet
@@ -216,7 +216,7 @@ contains
             if (ieee_is_finite(values(k))) then
                if (values(k) > values(k - 1)) cycle
             end if
-            call source%refuse(key, "the law has no "//what//" that rises with pressure at "//short(p(k)*scales%pressure)// &
+            call source%refuse(key, "the law gives no "//what//" that increases with pressure at "//short(p(k)*scales%pressure)// &
                " Pa and "//to_text(input%lubricant%temperature)//" degC, and the Hertz pressure is "//short(scales%pressure)// &
                " Pa", "a law that holds for the "//what//" up to 1.5 times the Hertz pressure, or a lower load", status)
             return

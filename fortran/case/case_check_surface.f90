@@ -42,13 +42,14 @@ contains
          call exclude("width_m", "width", s%width_m > 0.0_dp)
          call exclude("length_m", "length", s%length_m > 0.0_dp)
          call refuse(.not. contact%si .and. max(s%height_m, s%width_m, s%length_m) > 0.0_dp, "kind", &
-                     "sizes in metres with a contact by Moes numbers", "amplitude, width and length, or a contact in SI units")
+                     "sizes in metres with a contact given by Moes numbers", &
+                     "amplitude, width and length, or a contact in SI units")
          call refuse(s%velocity_ratio > 0.0_dp .and. s%x_start > x_matters, "x_start", &
                      "a "//trim(s%kind)//" would begin inside the contact", &
                      "at most "//short(x_matters)//", where its front end is at time 0")
       end if
       call refuse(s%spacing_y > 0.0_dp .and. .not. (feature .and. contact%is_line()), "spacing_y", &
-                  "nothing repeats along Y after it", "0, or a single feature on a line contact")
+                  "no single feature repeats along Y", "0, or a single feature on a line contact")
       call refuse((feature .or. s%kind == "harmonic") .and. s%shortest_wavelength > 0.0_dp, "shortest_wavelength", &
                   "there is no spectrum to cut", "0")
       call refuse((feature .or. s%kind == "harmonic") .and. s%longest_wavelength > 0.0_dp, "longest_wavelength", &
@@ -65,7 +66,7 @@ contains
       if (s%kind == "map" .and. trim(s%file) /= "" .and. .not. s%tile_x > 0.0_dp) call refuse(.not. is_file(trim(s%file)), &
          "file", "there is no file "//trim(s%file), "a height map: .npy, text or a file of an instrument")
       if (status%failed() .or. .not. must_wait(s, other)) return
-      call refuse(s%x_start > latest_start(s, other), "x_start", "the "//trim(s%kind)//" would come before the roughness of "// &
+      call refuse(s%x_start > latest_start(s, other), "x_start", "the "//trim(s%kind)//" would enter before the roughness of "// &
                   "the other surface fills the contact", "at most "//short(latest_start(s, other)))
 
    contains

@@ -100,7 +100,7 @@ contains
       range = range_of(trim(piece%group), trim(piece%key))
       stat = merge(0, 1, piece%values == 1)
       if (default == "") then
-         expected = "numbers with commas between them"
+         expected = "numbers separated by commas"
          stat = verify(value, "0123456789+-.eEdD, ")
       else if (index(default, "'") == 1) then
          expected = "a text between quotes"

@@ -75,7 +75,7 @@ contains
             if (group /= "") call refuse("&"//group//" has no end before the next group", "'/' after its last key")
             group = lower_case(text(token%first + 1:token%last))
             if (any(pieces(:n)%group == group)) call refuse("&"//group//" is given twice", "every group once")
-            if (group == "") call refuse("a group without a name", "&contact, for one")
+            if (group == "") call refuse("a group without a name", "for example &contact")
          case ("/")
             if (group == "") call refuse("'/' without a group", "&group before it")
             group = ""

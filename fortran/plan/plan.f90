@@ -250,7 +250,7 @@ contains
          what = trim(slowest%group)//".velocity_ratio = "//to_text(slowest%surface%velocity_ratio)//": this slow surface needs "
          if (plan%surfaces%repeats > 1) what = what//"in "//to_text(plan%surfaces%repeats)//" periods "
          ! rounded up, so that the suggested ratio is accepted
-         call status%fail(ehl_bad_input, what//fixed(steps, "es12.2e3")//" time steps until its friction is known, more than "// &
+         call status%fail(ehl_bad_input, what//fixed(steps, "es12.2e3")//" time steps to average its friction, more than "// &
                           to_text(limit)//new_line("a")//"expected: a velocity ratio of at least "// &
                           fixed(1.005_dp*steps*slowest%surface%velocity_ratio/limit, "es12.2e3")// &
                           " on this grid, or 0: a rough surface at rest is a steady contact")

@@ -29,7 +29,7 @@ contains
       real(dp) :: rows
 
       if (width < 0.0_dp) then
-         call status%fail(ehl_bad_input, "the two surfaces of a line contact have no width in common"//newline// &
+         call status%fail(ehl_bad_input, "the two surfaces of a line contact have no common period across the motion"//newline// &
                           "expected: lengths across the motion one of which is a whole multiple of the other; of a "// &
                           "single feature it is spacing_y")
          return

@@ -157,7 +157,7 @@ contains
                           newline//"expected: '"//magic//"'")
       else if (state == damaged) then
          call status%fail(ehl_bad_input, self%path//": error: this state is damaged, and there is no other"//newline// &
-                          "expected: a file that is whole")
+                          "expected: an undamaged file")
       else if (self%head%text /= text) then
          call status%fail(ehl_bad_input, self%path//": error: this state belongs to another case"//newline// &
                           first_difference(self%head%text, text))

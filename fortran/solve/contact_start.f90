@@ -82,7 +82,7 @@ contains
       call self%transient%restore(self%hierarchy%levels(self%smooth%n), self%plan%surfaces, same)
       if (.not. same) then
          call status%fail(ehl_bad_input, self%checkpoint%path//": error: the film of this state does not follow from "// &
-                          "its pressure"//new_line("a")//"expected: the surface and the program that it was made with")
+                          "its pressure"//new_line("a")//"expected: the surface and the program version that wrote it")
          return
       end if
       call self%checkpoint%end_resuming()

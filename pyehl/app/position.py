@@ -258,7 +258,7 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
         values |= {name: _tidy(float(bodies[name]) * scales[name]) for name in STEEL}
     elif not math.isclose(point.reduced_modulus, STEEL_MODULUS, rel_tol=2e-3):
         # not steel, even with the few digits that users write
-        note += f" E' = {point.reduced_modulus * 1e-9:.6g} GPa until a modulus is turned."
+        note += f" E' = {point.reduced_modulus * 1e-9:.6g} GPa until a modulus is changed."
     file = str(surface["file"]) if kind == "map" else ""
     if file and files is not None:
         name = Path(file).name

@@ -31,7 +31,7 @@ class _Elsewhere(RequestHandler):
     """Refuses requests with another host name."""
 
     def prepare(self) -> None:
-        raise HTTPError(403, f"the page is at {' and '.join(HOSTS)} alone")
+        raise HTTPError(403, f"the page is only at {' and '.join(HOSTS)}")
 
 
 def _only_for_hosts(routes: Routes) -> None:

@@ -79,7 +79,7 @@ def _viscosities(draft: Draft, table: Table) -> tuple[float, ...]:
         draft.refuse("duty.file", "columns 'temperature' and 'viscosity'", "one of the two")
     if not (oil.own_law or all(sheet)):
         expected = "an oil by name, table or data sheet, or a column 'viscosity [Pa s]'"
-        draft.refuse("duty.file", "a column 'temperature' of an oil at one viscosity", expected)
+        draft.refuse("duty.file", "a column 'temperature', and one viscosity of the oil", expected)
     result = []
     for at in table["temperature"]:
         if oil.own_law:
@@ -124,7 +124,7 @@ def _times(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
         yield "time", "times alone", f"one of {', '.join(DUTY_LISTS[1:])}"
     if not contact.si:
         expected = "contact.load, mean_velocity, radius and reduced_modulus: a duty is in SI units"
-        yield "time", "a duty of a contact by Moes numbers", expected
+        yield "time", "a duty with a contact given by Moes numbers", expected
     if duty.periodic:
         for key, values in lists.items():
             if key != "time" and abs(values[-1] - values[0]) > SAME * max(map(abs, values)):
@@ -139,8 +139,8 @@ def _values(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
         expected = "both, or duty.mean_velocity and duty.slide_to_roll"
         yield "u1" if duty.u1 else "u2", "one of duty.u1 and duty.u2", expected
     if duty.u1 and (duty.mean_velocity or duty.slide_to_roll):
-        what = "duty.u1 beside duty.mean_velocity or duty.slide_to_roll"
-        yield "u1", what, "the speeds one way"
+        what = "duty.u1 together with duty.mean_velocity or duty.slide_to_roll"
+        yield "u1", what, "either u1 and u2, or mean_velocity and slide_to_roll"
     minimum = MIN_LOAD * (contact.load_per_length if contact.is_line else contact.load)
     if duty.load and min(duty.load) < minimum:
         expected = f"at least {to_text(minimum)}, {MIN_LOAD} of that of the case"
@@ -184,7 +184,10 @@ def _check_beside(draft: Draft) -> None:
     """Refuse keys of other groups that contradict the duty."""
     grid = draft.settings.grid
     if draft.is_given("grid", "border") and grid.border == "flooded":
-        expected = "'zero': the pressure at a border that the duty moves is not known"
+        expected = (
+            "'zero': a duty changes the distance of the border, and the flooded pressure there is "
+            "not known"
+        )
         draft.refuse("grid.border", "grid.border = 'flooded' with a duty", expected)
     if grid.target_error > 0.0:
         expected = "grid.points; duty.target_error is that of the time steps"
@@ -203,7 +206,7 @@ def check_domain(draft: Draft) -> None:
     if reverses(draft.settings) and abs(grid.x_inlet + grid.x_outlet) > SAME * grid.x_outlet:
         what = (
             f"a domain from {to_text(grid.x_inlet)} to {to_text(grid.x_outlet)} a, and the mean "
-            "velocity turns"
+            "velocity changes sign"
         )
         name = "grid.x_outlet" if draft.is_given("grid", "x_outlet") else "grid.x_inlet"
         draft.refuse(name, what, "an inlet on both sides: x_outlet = -x_inlet")

@@ -142,7 +142,7 @@ class Key:
             "truth": ".true. or .false.",
             "path": "a file name between quotes",
             "text": "a text between quotes",
-            "numbers": "numbers with commas between them"
+            "numbers": "numbers separated by commas"
             if self.for_input
             else "what pyehl writes; lubricant.table names measured values",
         }[self.kind]

@@ -5,8 +5,8 @@ from pyehl.case.settings import Draft
 
 SHAPE = "contact.shape = 'line'"
 LINE_KEYS = ("load_per_length", "moes_m_line", "moes_l_line")
-MOES_DIFFER = "M and L of a line are other numbers than those of a point"
-STRIP = "the strip is as wide as the surfaces repeat, its cells are nearly square"
+MOES_DIFFER = "M and L of a line are defined differently from those of a point"
+STRIP = "the strip is one period of the surfaces wide, its cells are nearly square"
 # Keys of a point contact, and what to give in their place
 POINT_KEYS = {
     "contact.load": "contact.load_per_length [N/m]",
@@ -49,7 +49,9 @@ def check_keys(draft: Draft) -> None:
     if draft.is_given("solver", "deflection") and s.solver.deflection != "fft":
         what = f"solver.deflection = 'mlmi' with {SHAPE}"
         draft.refuse(
-            "solver.deflection", what, "'fft': a strip that repeats has no multi-integration"
+            "solver.deflection",
+            what,
+            "'fft': multi-integration is not available for a periodic strip",
         )
     if s.lubricant.thermal_friction == "always" and abs(s.contact.slide_to_roll) >= 2.0:
         what = (

@@ -224,7 +224,7 @@ def check_law(draft: Draft) -> None:
         )
         draft.refuse(
             key,
-            f"the law '{law}' has no {what} that rises with pressure at {where}",
+            f"the law '{law}' gives no {what} that increases with pressure at {where}",
             f"a law that holds for the {what} up to 1.5 times the Hertz pressure, or a lower load",
         )
 
@@ -243,7 +243,7 @@ def check_shear_law(draft: Draft) -> None:
         draft.refuse(name, what, f"'newtonian', or {CONTACT_IN_SI}")
     if oil.shear_law == "carreau" and not (oil.carreau_stress > 0.0 and oil.carreau_exponent > 0.0):
         what = f"{law} without carreau_stress and carreau_exponent"
-        draft.refuse(name, what, "both, as measured for the oil: no two oils share them")
+        draft.refuse(name, what, "both, as measured for this oil: they differ between oils")
 
 
 def check_boundary_film(draft: Draft) -> None:
@@ -316,7 +316,9 @@ def complete_viscosity(draft: Draft) -> None:
             f"{short(follows)} Pa s at {temperature}"
         )
         other = "lubricant.kinematic_viscosity_40" if given else "lubricant.name"
-        draft.contradict("lubricant.viscosity", other, "viscosity, or what gives it", why)
+        draft.contradict(
+            "lubricant.viscosity", other, "viscosity, or the values that it follows from", why
+        )
 
 
 def _check_use_of_sheet(draft: Draft) -> None:

@@ -160,7 +160,7 @@ def read_machine(
         )
     first = [draft.first_given(key.name for key in GROUPS[kind]) for kind in result]
     if len(result) > 1:
-        draft.contradict(first[1], first[0], "one machine in a file")
+        draft.contradict(first[1], first[0], "one machine element per file")
     if result[0] not in kinds:
         command = "gear" if result[0] == "spur_gear" else "bearing"
         draft.refuse(first[0], f"&{result[0]} is no {wanted}", f"'pyehl {command}' takes it")

@@ -30,7 +30,7 @@ SPIN = (
     "contact.slide_to_roll"
 )
 STARVED = (
-    "an inlet is short of oil by inlet.position [m], where the oil begins, or by inlet.film [m], "
+    "a starved inlet has inlet.position [m], where the oil begins, or inlet.film [m], "
     "the layer that arrives"
 )
 WEAR = "wear is not modelled: surfaces keep their heights"

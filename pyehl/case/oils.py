@@ -212,7 +212,7 @@ def _check(source: Source, states: list[State]) -> None:
             refuse(state, "the same state as before", "each pressure once at each temperature")
         if state.viscosity <= before.viscosity:
             what = (
-                f"the viscosity does not rise from {to_text(before.pressure)} Pa, where it is "
+                f"the viscosity does not increase from {to_text(before.pressure)} Pa, where it is "
                 f"{to_text(before.viscosity)} Pa s"
             )
-            refuse(state, what, "a viscosity that rises with pressure at each temperature")
+            refuse(state, what, "a viscosity that increases with pressure at each temperature")

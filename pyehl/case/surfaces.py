@@ -127,7 +127,7 @@ def check(draft: Draft) -> None:
     for group, one, other in ((GROUPS[0], first, second), (GROUPS[1], second, first)):
         if _waits(one, other) and one.x_start > (latest := _latest_start(one, other)):
             what = (
-                f"{group}.x_start = {short(one.x_start)}: the {one.kind} would come before the "
+                f"{group}.x_start = {short(one.x_start)}: the {one.kind} would enter before the "
                 "roughness of the other surface fills the contact"
             )
             draft.refuse(f"{group}.x_start", what, f"at most {short(latest)}")
@@ -152,7 +152,7 @@ def _check_feature(draft: Draft, group: str, surface: Surface) -> None:
     """Refuse a size given twice or in metres without SI units, and a start in the contact."""
     if surface.spacing_y > 0.0 and not (surface.is_feature and draft.settings.contact.is_line):
         key = f"{group}.spacing_y"
-        what = f"{key} = {short(surface.spacing_y)}: nothing repeats along Y after it"
+        what = f"{key} = {short(surface.spacing_y)}: no single feature repeats along Y"
         draft.refuse(key, what, "0, or a single feature on a line contact")
     if not surface.is_feature:
         return

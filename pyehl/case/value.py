@@ -77,7 +77,7 @@ def _numbers(key: Key, token: Token) -> tuple[float, ...]:
         raise BadValue("not for input")
     cells = [cell.strip() for cell in token.text.split(",")]
     if not all(NUMBER.fullmatch(cell) for cell in cells):
-        raise BadValue("not numbers with commas between them")
+        raise BadValue("not numbers separated by commas")
     return tuple(float(cell.lower().replace("d", "e")) for cell in cells)
 
 
@@ -92,7 +92,7 @@ def _number(key: Key, token: Token, *, is_option: bool) -> float | int:
         if text.lstrip("+-").lower().startswith(("nan", "inf")):
             raise BadValue("not a finite number")
         if "*" in text:
-            raise BadValue("not one plain number")
+            raise BadValue("not a single number")
         if match is None:
             raise BadValue("not a number")
         raise BadValue("text after the number", match.end())

@@ -15,7 +15,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--port", type=int, default=0, metavar="N", help="port of 127.0.0.1 (default: a free one)"
     )
     parser.add_argument(
-        "--no-browser", dest="browser", action="store_false", help="print the address alone"
+        "--no-browser", dest="browser", action="store_false", help="print only the address"
     )
 
 

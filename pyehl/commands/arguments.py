@@ -30,5 +30,5 @@ def add_overrides(parser: argparse.ArgumentParser, where: str) -> None:
 def add_force(parser: argparse.ArgumentParser) -> None:
     """Option --force of commands that write a folder."""
     parser.add_argument(
-        "--force", action="store_true", help="take a folder with other files, which stay"
+        "--force", action="store_true", help="accept a folder with other files and keep them"
     )

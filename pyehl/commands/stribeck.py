@@ -148,7 +148,10 @@ def draw(
     key = plan.study.keys[0]
     absolute = absolute_friction(plan, table)
     if measured is not None and measured.ordinate != ("mu" if absolute else "mu_ratio"):
-        print(f"note: --measured: there is no {measured.ordinate} to draw it over", file=sys.stderr)
+        print(
+            f"note: --measured: the curve has no {measured.ordinate} to compare it with",
+            file=sys.stderr,
+        )
         measured = None
     curves = curves_of(plan, table, absolute=absolute)
     overlay = None

@@ -27,7 +27,7 @@ from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-MADE = f"! {mark('surface')}\n! A tile in the contact that it was made for\n"
+MADE = f"! {mark('surface')}\n! A tile for the contact that it was made for\n"
 
 # Keys of a tile on its track, with its spectrum already cut
 READY_IN_PLACE = {

@@ -39,7 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="columns of the table, by their names in summary.json (default: all numbers but those "
         "over the tracks of a prediction, and `assessment`)",
     )
-    parser.add_argument("--zip", action="store_true", help="all varied keys move together")
+    parser.add_argument("--zip", action="store_true", help="all varied keys vary together")
     parser.add_argument("--keep", action="store_true", help="a result folder for each case")
     parser.add_argument("--retry", action="store_true", help="run failed cases again")
     parser.add_argument(

@@ -66,15 +66,15 @@ def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:
     meant = max(position, layer) > 0.0
     if grid.get("border") == "zero" and float(grid["x_inlet"]) > FLOODED and not meant:
         result.append(
-            f"grid.x_inlet = {float(grid['x_inlet']):g}: the formulas are of flooded inlets"
+            f"grid.x_inlet = {float(grid['x_inlet']):g}: the formulas are for flooded inlets"
         )
     if lubricant.shear.in_flow:
         law = lubricant.shear.law
-        result.append(f"lubricant.shear_law = '{law}': the formulas are of a Newtonian flow")
+        result.append(f"lubricant.shear_law = '{law}': the formulas are for a Newtonian flow")
     if settings.get("duty"):
-        result.append("&duty: the formulas are of the case, which is steady")
+        result.append("&duty: the formulas are for the steady case, without its duty")
     if boundary > 0.0:
-        result.append(f"lubricant.boundary_film = {boundary:g}: the formulas are of a full film")
+        result.append(f"lubricant.boundary_film = {boundary:g}: the formulas are for a full film")
     return result
 
 

@@ -256,8 +256,8 @@ def solved_text(text: str) -> SmoothContact:
     if best is None:
         raise EhlError(
             f"the smooth contact under the prediction did not converge on {finest} nodes along "
-            f"X: {status}; a lighter load or a wider contact may, and 'pyehl predict --smooth' "
-            "takes one that 'pyehl run' has solved on another grid"
+            f"X: {status}; reduce the load or enlarge the contact, or use 'pyehl predict --smooth' "
+            "with a smooth contact that 'pyehl run' has solved on another grid"
         )
     return best
 

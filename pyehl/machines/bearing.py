@@ -203,7 +203,7 @@ def _pitch(machine: Machine, element: float, count: int, elements: str) -> float
         room = 0.5 * (v.outer_diameter - v.bore)
         if element >= room:
             what = f"{elements} of {element:.4g} m between a bore of {v.bore:.4g} m and "
-            what += f"{v.outer_diameter:.4g} m outside leave no rings"
+            what += f"{v.outer_diameter:.4g} m outside leave no room for the rings"
             machine.refuse(name, what, f"{name} below {max(room, 0.0):.4g} m")
     if element >= pitch:
         what = f"{elements} of {element:.4g} m do not fit round a pitch diameter of {pitch:.4g} m"

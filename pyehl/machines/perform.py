@@ -79,7 +79,7 @@ class Prepared:
         for one in self.films:
             if run == "film" or not one.is_solvable:
                 what = f"{one.contact.place}: formulas of flooded contacts give its film"
-                expected = "run = 'solve' and contacts that the solver takes, or no &inlet"
+                expected = "run = 'solve' and contacts that the solver accepts, or no &inlet"
                 refuse_inlet(one.settings, what, expected)
                 self.number.append(None)
                 continue

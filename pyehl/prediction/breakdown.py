@@ -233,7 +233,7 @@ class Advice:
             "in the mean over the passage"
         ]
         if self.first:
-            return lines + [f"first      {option}: it is no roughness" for option in self.first]
+            return lines + [f"first      {option}: it is not roughness" for option in self.first]
         if self.outliers is not None:
             lines.append(
                 f"full film  with {self.groups[0]}.outliers = {self.outliers:.4g}: "
@@ -247,8 +247,8 @@ class Advice:
                     f"{lengths.length(length, most='um')}"
                 )
         if self.outliers is None and not any(self.wavelengths):
-            cut = "short waves alone" if two else "spikes or short waves alone"
-            lines.append(f"full film  with no cut of {cut}")
+            cut = "short waves" if two else "spikes or short waves"
+            lines.append(f"full film  not by cutting {cut} alone")
         return lines
 
 

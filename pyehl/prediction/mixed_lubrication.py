@@ -290,9 +290,9 @@ variance that shorter ones may have; the minimum of points per shorter semi-axis
 boundary film, and the maximum: the time grows with its square."""
 
 # Why contact at a boundary film is not predicted, or its errors are not known
-OF_TWO = "contact at a boundary film is predicted of one rough surface"
-OTHER_MODEL = "psd.reduction and psd.smooth are not those that contact is predicted with"
-ELASTIC = "the prediction is of elastic solids: contact.hardness is left out"
+OF_TWO = "contact at a boundary film is predicted for a single rough surface"
+OTHER_MODEL = "contact is not predicted with these psd.reduction and psd.smooth"
+ELASTIC = "the prediction assumes elastic solids: contact.hardness is ignored"
 UNRESOLVED = "waves are too short for the points of the prediction"
 UNSOLVED = "the contact of the prediction is not solved"
 NO_SMOOTH = "no film has the load share of the smooth contact, by which the error is known"

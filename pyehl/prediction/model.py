@@ -153,7 +153,7 @@ def why_no_error(
     if outside:
         return f"outside the range of the response by {', '.join(outside)}"
     if not options.measured:
-        return "psd.reduction and psd.smooth are not those that it was measured with"
+        return "it was measured with other psd.reduction and psd.smooth"
     if friction_alone_thins:
         return "with a shear law it was measured with lubricant.flow = 'consistent'"
     if mu_ratio > KNOWN_RATIO:
@@ -289,7 +289,7 @@ class Model:
         o, options = self.operating, self.options
         if o.moes_l == 0.0:
             raise InputError(
-                "a prediction needs a viscosity that rises with pressure: its response of the "
+                "a prediction needs a viscosity that increases with pressure: its response of the "
                 "contact to waves goes by M/L, and L = 0\nexpected: lubricant.pressure_viscosity "
                 "above 0, or a run without a prediction"
             )

@@ -213,8 +213,8 @@ def turned(settings: Settings) -> str:
     if angle == 0.0 or contact_of(settings).radius_ratio == 1.0:
         return ""
     return (
-        f"contact.angle = {angle:g}: the response of an elliptical contact is known where an axis "
-        "lies along the motion. What is missing: an inlet that is oblique on the centre line\n"
+        f"contact.angle = {angle:g}: the response of an elliptical contact is known only for "
+        "an axis along the motion, not for an inlet that is oblique on the centre line\n"
         "expected: contact.angle = 0 (at 90 degrees with the radii exchanged), or 'pyehl run'"
     )
 

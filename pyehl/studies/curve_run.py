@@ -102,12 +102,12 @@ def deviation(curve: Curve, measured: Measured) -> list[str]:
         result = measured.deviation(name, curve)
         known = np.isfinite(result)
         if not known.any():
-            lines.append(f"measured   no point where there is {name}")
+            lines.append(f"measured   no point of the curve there has {name}")
             continue
         worst = int(np.nanargmax(np.abs(result)))
         lines.append(
             f"measured   {name} is off by {np.mean(result[known]):+.1%} in the mean, "
-            f"{np.sqrt(np.mean(result[known] ** 2)):.1%} rms, {result[worst]:+.1%} at the most "
+            f"{np.sqrt(np.mean(result[known] ** 2)):.1%} rms, {result[worst]:+.1%} at most "
             f"({measured.abscissa} = {measured.places[worst]:.4g}); {known.sum()} of "
             f"{known.size} points"
         )

@@ -152,7 +152,7 @@ class Journal:
         except sqlite3.OperationalError as error:
             if error.sqlite_errorcode == sqlite3.SQLITE_BUSY:
                 who = _unlocked(self.path, "holder") or "another process"
-                raise InputError(f"{self.folder}: {who} works on this study") from error
+                raise InputError(f"{self.folder}: {who} is running this study") from error
             raise FileError(f"{self.path}: cannot write: {error}") from error
         except sqlite3.DatabaseError as error:
             raise InputError(

@@ -147,7 +147,7 @@ def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
                 elif isinstance(error, BrokenExecutor):
                     deaths += 1
                     if not works and deaths > 2 * jobs:
-                        raise InternalError("the worker processes end before they begin") from error
+                        raise InternalError("the worker processes end while they start") from error
                     executors[k].shutdown(kill_workers=True)
                     executors[k] = _executor()
                     # several tasks are then given one by one, which finds the faulty one

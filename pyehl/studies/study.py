@@ -87,7 +87,7 @@ def axis(key: str, values: str | Iterable[Any] | Value) -> Axis:
     if not result:
         raise InputError(f"{key}: there are no values; expected {FORMS}")
     if len(result) > MAX_VALUES:
-        raise InputError(f"{key}: more than {MAX_VALUES} values, the most that a study can have")
+        raise InputError(f"{key}: more than {MAX_VALUES} values, the maximum of a study")
     if len({type(value) for value in result}) > 1:
         if not all(isinstance(v, int | float) and not isinstance(v, bool) for v in result):
             raise InputError(f"{key}: numbers and words together: {result}")
@@ -361,15 +361,15 @@ def _dimensions(
     for key, count in Counter(key for group in groups for key in group).items():
         if key not in known:
             raise InputError(
-                f"keys that move together: '{key}' is not varied{did_you_mean(key, known)}"
+                f"keys that vary together: '{key}' is not varied{did_you_mean(key, known)}"
             )
         if count > 1:
-            raise InputError(f"keys that move together: '{key}' is given twice")
+            raise InputError(f"keys that vary together: '{key}' is given twice")
     for group in groups:
         sizes = {key: len(known[key].values) for key in group}
         if len(set(sizes.values())) > 1:
             listed = ", ".join(f"{key} {size}" for key, size in sizes.items())
-            raise InputError(f"keys that move together need the same number of values: {listed}")
+            raise InputError(f"keys that vary together need the same number of values: {listed}")
     group_of = {key: tuple(group) for group in groups for key in group}
     dimensions = dict.fromkeys(group_of.get(key, (key,)) for key in known)
     return tuple(tuple(known[key] for key in group) for group in dimensions)

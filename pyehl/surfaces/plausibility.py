@@ -85,23 +85,23 @@ def doubts(heights: Array) -> list[str]:
         if counts[place] < max(OFTEN, TIMES * rest) or counts[place] > part.size // 2:
             continue
         value, often = float(values[place]), int(np.count_nonzero(heights == values[place]))
-        end = ends.get(int(place), "far more than are of any other value")
+        end = ends.get(int(place), "far more often than any other value")
         notes.append(
             f"{often} heights are exactly {value:.10g}, {end}: if it marks missing points, or the "
-            "end of the range of the instrument, write nan in its place"
+            "end of the range of the instrument, replace it by nan"
         )
     return [note for note in notes if note]
 
 
 def _far_end(values: Array, counts: NDArray[np.signedinteger], end: int) -> str:
-    """Note a smallest or largest height that is there twice or more, far off all others."""
+    """Note an extreme height that occurs at least twice and differs much from all others."""
     others = values[1:] if end == 0 else values[:-1]
     gap = float(np.abs(others - values[end]).min())
     if counts[end] < 2 or gap <= RANGES * float(np.ptp(others)):
         return ""
     return (
-        f"heights of exactly {values[end]:.10g} are {gap:.6g} off all others: if they mark missing "
-        "points, write nan in their place"
+        f"heights of exactly {values[end]:.10g} differ by {gap:.6g} from all others: if they mark "
+        "missing points, replace them by nan"
     )
 
 

@@ -187,7 +187,7 @@ def _fill(work: WorkingMap, options: Options, valid: Mask) -> None:
         full = map_steps.filled(work.z, work.pixel, (options.crop[0], options.crop[2]))
     except ValueError as error:
         raise InputError(f"{work.origin}: {error}") from None
-    why = "given" if options.outliers > 0.0 else "heights are known only around them"
+    why = "given" if options.outliers > 0.0 else "the points around them are known"
     work.add_step("fill", options.fill, full, why, changed=missing)
 
 

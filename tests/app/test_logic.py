@@ -44,7 +44,7 @@ def test_sliders_reach_their_ends(name):
 
 
 @pytest.mark.parametrize("text", ["", "abc", "1,5", "nan", "inf", "1e400"])
-def test_what_is_no_number_is_refused(text):
+def test_a_control_refuses_texts_that_are_no_numbers(text):
     with pytest.raises(InputError, match="load w = "):
         CONTROLS["load"].read(text)
 
@@ -127,10 +127,10 @@ def test_moduli_of_the_bodies_of_a_case_are_kept():
     expected = case.resolve()["contact"]["reduced_modulus"]
     assert back.reduced_modulus() == pytest.approx(expected, rel=1e-10)
     _, note = from_case(Case.from_text("&contact reduced_modulus = 1.4e11 /"))
-    assert "E' = 140 GPa until a modulus is turned" in note
+    assert "E' = 140 GPa until a modulus is changed" in note
 
 
-def test_a_turned_ellipse_is_drawn_as_it_lies():
+def test_a_turned_ellipse_is_drawn_at_its_angle():
     text = "&contact radius_x = 0.01 radius_y = 0.03 angle = 30.0 load = 100.0 /"
     result = answers.film(from_case(Case.from_text(text))[0], 65, always)
     assert result.converged
@@ -188,7 +188,7 @@ def test_moes_numbers_become_si(root: Path):
         ("&second_surface kind = 'fractal' /", "second_surface"),
     ],
 )
-def test_what_no_control_stands_for_is_refused(text, why):
+def test_cases_beyond_the_controls_are_refused(text, why):
     with pytest.raises(InputError, match=why):
         from_case(Case.from_text(text))
 
@@ -235,7 +235,7 @@ def test_no_solution_is_no_number(start):
     assert result.film.size == 0
 
 
-def test_what_is_not_wanted_ends(start):
+def test_superseded_computations_end(start):
     assert answers.film(start, 65, lambda: False) is None
 
 
@@ -264,7 +264,7 @@ def test_rough_contact_is_that_of_a_prediction(start):
     )
 
 
-def test_film_that_ends_says_what_would_carry(start):
+def test_film_breakdown_suggests_a_cut_off(start):
     position = start.turned("surface", "fractal").turned("rms", 400.0)
     rows = words.rough_rows(answers.rough(position))
     names = [name for name, _ in rows]
@@ -333,7 +333,7 @@ def test_regimes(moes_m, moes_l, name, power):
 
 
 @pytest.mark.long
-def test_many_turns_leave_nothing(start):
+def test_many_changes_leave_no_memory_behind(start):
     """No solver, no thread and no memory is left of positions that were passed."""
 
     def film_and_back() -> None:
@@ -371,7 +371,7 @@ def test_contact_without_friction_of_the_boundary_film():
     assert shown["friction μ_s, smooth"].endswith("on 65 × 65 nodes")
 
 
-def test_pictures_with_nothing_to_show_give_way_to_a_sentence(monkeypatch):
+def test_pictures_without_data_are_replaced_by_a_sentence(monkeypatch):
     """No empty axes; what the browser is sent is what is there."""
     pictures = Pictures()
     rough = (pictures.before, pictures.after, pictures.bands, pictures.over)
@@ -388,7 +388,7 @@ def test_pictures_with_nothing_to_show_give_way_to_a_sentence(monkeypatch):
     assert not any(model in rough for model, values in sent if "visible" in values)
 
 
-def test_axes_have_as_many_numbers_as_there_is_room_for():
+def test_axis_numbers_fit_the_axes():
     for name, picture in Pictures().figures.items():
         if name.endswith("_hint") or name == "bands":
             continue

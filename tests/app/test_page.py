@@ -61,7 +61,7 @@ def test_numbers_are_those_of_pyehl_run(tab, tmp_path, capsys):
     assert "Converged on 513 × 513 nodes" in tab.words("status")
 
 
-def test_wrong_input_is_said_at_its_control(tab):
+def test_wrong_input_is_reported_at_its_control(tab):
     tab.settle()
     answer, asked = rows_of(tab, "numbers"), tab.stamp()[0]
     for text, why in (("abc", "expected a number"), ("-5", "contact.load"), ("1e9", "1e9")):
@@ -89,7 +89,7 @@ def test_surface_is_predicted(tab):
     assert "Λ" in tab.words("rough")
 
 
-def test_map_is_taken_or_refused_in_the_words_of_its_reader(tab, page, tmp_path):
+def test_refused_maps_show_the_message_of_the_reader(tab, page, tmp_path):
     tab.choose("surface", "map")
     assert "no height map yet" in tab.until(lambda: tab.words("error_surface"))
     bad = tmp_path / "bad.npy"
@@ -126,7 +126,7 @@ def test_map_is_taken_or_refused_in_the_words_of_its_reader(tab, page, tmp_path)
 
 
 @pytest.mark.long
-def test_a_surface_that_is_turned_to_smooth_leaves_nothing(tab, page):
+def test_a_surface_set_to_smooth_leaves_nothing(tab, page):
     """An answer of the rough contact that comes afterwards is not shown."""
     late = []
     deliver = page.worker.deliver
@@ -233,7 +233,7 @@ def test_two_tabs_do_not_disturb_each_other_and_end(tab, served, monkeypatch):
 
 
 @pytest.mark.long
-def test_an_older_answer_never_comes_last(tab, page):
+def test_an_older_answer_never_replaces_a_newer_one(tab, page):
     """The slider is moved many times without a pause; what is seen belongs to its last place."""
     answers = []
     deliver = page.worker.deliver
@@ -324,7 +324,7 @@ def test_only_this_machine_and_this_page(served):
 @pytest.mark.parametrize(
     "host", ["localhost", "evil.example", "127.0.0.1.evil.example", "localhost.", ""]
 )
-def test_only_by_the_names_of_this_machine(served, host):
+def test_requests_with_other_host_names_are_refused(served, host):
     """A name that was bound to the loopback gets nothing, not even by its own origin."""
     head = {"Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Version": "13"}
     head["Sec-WebSocket-Key"] = "dGhlIHNhbXBsZSBub25jZQ=="
@@ -345,7 +345,7 @@ def test_only_by_the_names_of_this_machine(served, host):
         pytest.param(1000, 60_000, marks=pytest.mark.slow),
     ],
 )
-def test_many_turns_in_the_browser(tab, served, count: int, kilobytes: int):
+def test_many_changes_in_the_browser(tab, served, count: int, kilobytes: int):
     """Memory of the server stays what it is, apart from what the allocator keeps for itself."""
 
     def held() -> int:

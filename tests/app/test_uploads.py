@@ -14,7 +14,7 @@ from pyehl.case import Case
 from pyehl.errors import InputError
 
 
-def test_upload_is_read_and_refused_in_the_words_of_the_reader(tmp_path):
+def test_refused_uploads_show_the_message_of_the_reader(tmp_path):
     uploads = Uploads()
     heights = tmp_path / "ground.npy"
     np.save(heights, 1e-8 * np.random.default_rng(1).normal(size=(32, 32)))

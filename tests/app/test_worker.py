@@ -11,7 +11,7 @@ from pyehl.case import Case
 from pyehl.errors import InputError
 
 
-def test_worker_does_the_newest_alone():
+def test_worker_computes_only_the_newest_request():
     reported: list[tuple[int, object]] = []
     begun, go = threading.Event(), threading.Event()
     worker = Worker(lambda generation, answer: reported.append((generation, answer)))

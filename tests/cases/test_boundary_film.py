@@ -194,7 +194,7 @@ TEMPERATURES = tuple(f"temperature_rise{part}_max_K" for part in ("", "_wall_1",
 
 
 @pytest.mark.parametrize("case", [{}, WAVE | {"time.steps": 20}], ids=["smooth", "wave"])
-def test_layer_that_touches_nothing_changes_no_bit_of_friction_with_heat(solve, case):
+def test_boundary_film_without_contact_changes_no_bit_of_friction_with_heat(solve, case):
     """Heat is not switched off with it."""
     light = HOT | case | {"contact.load": 20.0}
     without = solve(None, 65, light, words=True)
@@ -328,7 +328,7 @@ def test_contact_of_a_coarse_grid(solve):
     assert "an error that is not known" in done["assessment"]
 
 
-def test_a_layer_that_would_have_to_give_much(solve):
+def test_a_boundary_film_with_a_large_mass_defect(solve):
     """A thick one on a coarse grid: the assessment states that the model ends there."""
     done = solve(None, 65, STEEL | MIXED | {"lubricant.boundary_film": 8e-8}, words=True)
     assert done.converged
@@ -338,7 +338,7 @@ def test_a_layer_that_would_have_to_give_much(solve):
 
 
 @pytest.mark.long
-def test_no_error_where_a_layer_that_gives_much_carries_most(solve):
+def test_no_error_where_the_mass_defect_is_large(solve):
     """A wave of the stress campaign, whose load share two grids give no error of."""
     wave = {
         "contact.load": 220.65341,
@@ -363,7 +363,7 @@ def test_no_error_where_a_layer_that_gives_much_carries_most(solve):
     assert "would have to supply much of the flow" in runs[1]["contact_load_share_error_note"]
 
 
-def test_both_drivers_find_the_same(solve, tmp_path):
+def test_both_drivers_give_the_same_results(solve, tmp_path):
     values = STEEL | MIXED | {"lubricant.boundary_friction": 0.1, "time.steps": 12}
     done = solve(None, 65, values)
     settings = {k: v.strip("'") if isinstance(v, str) else v for k, v in values.items()}

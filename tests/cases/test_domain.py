@@ -49,7 +49,7 @@ def test_stated_error_covers_a_domain_twice_as_large(moes_m: float, moes_l: floa
         assert abs(here["H_c"] / wide["H_c"] - 1.0) <= 0.002
 
 
-def test_from_500_on_it_is_that_of_the_paper():
+def test_domain_of_the_paper_from_m_500():
     for moes_m, moes_l in ((500.0, 0.0), (500.0, 25.0), (5000.0, 10.0)):
         assert domain_of(case_of(moes_m, moes_l, 65)) == PAPER
     # and below it grows as the film gets thicker
@@ -66,12 +66,12 @@ def test_from_500_on_it_is_that_of_the_paper():
         )
 
 
-def test_a_key_overrides_its_border_alone():
+def test_a_key_overrides_only_its_own_border():
     usual = domain_of(case_of(100.0, 10.0, 65))
     assert domain_of(case_of(100.0, 10.0, 65, x_inlet=-3.0)) == usual | {"x_inlet": -3.0}
 
 
-def test_starved_domain_says_so():
+def test_a_domain_that_starves_the_film_is_reported():
     """At (20, 10) P = 0 on the domain of the paper takes 6 % of the film; plan and error say so."""
     starved = solved(case_of(20.0, 10.0, 257, **PAPER, border="zero"))
     flooded = solved(case_of(20.0, 10.0, 257))
@@ -111,7 +111,7 @@ def test_pressure_spike_of_few_nodes_converges():
     assert result["H_c"] / usual["H_c"] == pytest.approx((25.0 / 24.0) ** 0.6, rel=2e-3)
 
 
-def test_a_second_try_is_the_last():
+def test_damping_on_all_levels_fails_before_the_finest_alone():
     """Here coarse levels fail with care, too; what is left is the finest one, with care."""
     result = solved(case_of(600.0, 40.0, 129))
     assert result["restarts"] == 2

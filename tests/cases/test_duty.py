@@ -54,7 +54,7 @@ def test_a_constant_duty_is_the_steady_contact_in_bits():
     assert float(data.duty_p_max_Pa) == float(steady.p_max_Pa)
     case = pyehl.Case(**LINE, duty={"time": [0.0, UNIT], "load": [LOAD] * 2})
     with pyehl.Solver(case) as solver:
-        assert "nothing moves" in solver.describe()
+        assert "no surface moves" in solver.describe()
 
 
 @pytest.mark.parametrize("radius_y", [0.005, 0.01, 0.03])
@@ -94,7 +94,7 @@ def test_roughness_moves_under_a_constant_duty():
 
 
 @pytest.mark.parametrize("key", ["load", "mean_velocity", "radius_x"])
-def test_a_table_that_begins_elsewhere(key):
+def test_a_table_that_begins_away_from_the_case(key):
     """The film has gone over from the case to its first row when the table begins."""
     data = run([0.0, 0.5], **{key: [0.8, 0.8]})
     name = {"load": "load_per_length", "radius_x": "radius"}.get(key, key)
@@ -109,7 +109,7 @@ def test_a_table_that_begins_elsewhere(key):
     assert film == pytest.approx(float(steady.h_c_m), rel=1e-2)
 
 
-def test_what_does_not_move_at_first_is_the_steady_contact():
+def test_a_constant_beginning_is_the_steady_contact():
     """Up to the row at which the load begins to rise; from the first step of a duty on."""
     duty = {"load": [1.0, 1.0, 1.0, 1.1], "mean_velocity": [1.0] * 4}
     h = run([0.0, 1.0, 2.0, 3.0], **duty)
@@ -242,7 +242,7 @@ def test_the_required_error_is_held(name):
         assert np.abs(other / data[film].values - 1.0).max() < 0.02
 
 
-def test_half_the_time_step():
+def test_half_the_time_step_gives_a_quarter_of_the_error():
     """Errors by time steps fall with their square, and so do those that are stated."""
     time, duty = DUTIES["speed"]
     films, stated = [], []
@@ -353,7 +353,7 @@ def test_steps_of_wide_contacts_take_few_cycles(radius_y):
     assert float(data.cycles_per_step) < 15.0
 
 
-def test_a_motion_the_other_way_is_the_mirror_image():
+def test_a_reversed_motion_is_the_mirror_image():
     """A duty and its negative leave films that are mirror images, to the tolerance of the steps."""
     time = np.array([0.0, 1e-4, 2e-4, 4e-4])
     forth = [2.0, 1.0, 1.0, 1.0]
@@ -431,7 +431,7 @@ def test_roughness_under_a_reversal():
 
 
 @pytest.mark.parametrize("least", [0.1, 0.01])
-def test_a_load_of_nearly_nothing(least):
+def test_a_load_near_zero(least):
     """The film stays, and the balance of force holds; squeezing oil out keeps it above steady."""
     time = [0.0, 2.0, 4.0, 6.0]
     data = run(time, load=[1.0, least, least, 1.0])

@@ -45,7 +45,9 @@ def test_temperature_of_the_inlet(tmp_path: Path, oil):
     cold = pyehl.Case(**groups, lubricant=oil | {"temperature": 60.0})
     wanted = [case["lubricant"]["viscosity"] for case in (cold, hot, cold)]
     np.testing.assert_allclose(read["duty"]["viscosity"], wanted, rtol=1e-12)
-    with pytest.raises(pyehl.InputError, match="column 'temperature' of an oil at one viscosity"):
+    with pytest.raises(
+        pyehl.InputError, match="column 'temperature', and one viscosity of the oil"
+    ):
         pyehl.Case(tmp_path / "case.nml", POINT)
 
 
@@ -63,7 +65,7 @@ def test_temperature_of_the_inlet(tmp_path: Path, oil):
         ("load [N]\n40\n30\n", r"no column 'time'"),
     ],
 )  # fmt: skip
-def test_what_a_table_must_be(tmp_path: Path, table, message):
+def test_bad_duty_tables_are_refused(tmp_path: Path, table, message):
     (tmp_path / "duty.csv").write_text(table, encoding="utf-8")
     (tmp_path / "case.nml").write_text("&duty file = 'duty.csv', periodic = .true. /\n")
     with pytest.raises(pyehl.InputError, match=rf"(?s){message}"):
@@ -81,7 +83,7 @@ def test_what_a_table_must_be(tmp_path: Path, table, message):
         ({"grid.border": "flooded"}, "'zero'"),
     ],
 )
-def test_what_goes_with_a_duty(options, message):
+def test_keys_that_a_duty_refuses(options, message):
     duty = {"duty.time": (0.0, 1.0)} | (
         {} if "duty.load" in options else {"duty.load": (40.0, 30.0)}
     )

@@ -281,7 +281,7 @@ def test_waves_on_half_and_whole_domains(solve, ratio, coarsening):
 @pytest.mark.parametrize(
     ("ratio", "moes_m", "border"), [(25.0, 3.0, "flooded"), (60.0, 8.0, "zero")]
 )
-def test_sides_of_a_narrow_contact_are_far_enough(solve, ratio: float, moes_m: float, border: str):
+def test_default_sides_of_a_narrow_contact(solve, ratio: float, moes_m: float, border: str):
     """The default domain beside one three times as wide: changes are below what is stated."""
     keys = {"contact.radius_ratio": ratio, "grid.border": border, "solver.accuracy": 0.005}
     near = solve((moes_m, 8.0), 129, keys)
@@ -296,7 +296,7 @@ def test_sides_of_a_narrow_contact_are_far_enough(solve, ratio: float, moes_m: f
         assert change < near[f"{name}_error_domain"]
 
 
-def test_engines_agree(solve):
+def test_deflection_engines_agree(solve):
     keys = {"contact.radius_ratio": 0.1}
     exact = solve((500.0, 10.0), 129, keys | {"solver.deflection": "fft"})
     fast = solve((500.0, 10.0), 129, keys | {"solver.deflection": "mlmi"})
@@ -346,7 +346,7 @@ def test_too_coarse_a_grid_names_one_that_will_do(drive, tmp_path: Path):
 
 @pytest.mark.long
 @pytest.mark.parametrize("moes_l", [5.0, 10.0, 15.0])
-def test_wide_thin_films_take_cycles_back(solve, moes_l: float):
+def test_wide_thin_films_converge_with_damped_cycles(solve, moes_l: float):
     """Full cycles diverge, damped ones do not: no restart. H_c as on a finer grid."""
     shape = ellipse(RATIO_OF_TEN)
     scale = shape.ellipticity * shape.kernel_ratio**0.25
@@ -368,7 +368,7 @@ def test_a_failed_contact_names_a_finer_grid(solve):
 
 @pytest.mark.parametrize("kappa", [0.1, 0.2, 0.5, 2.0, 5.0, 10.0])
 @pytest.mark.long
-def test_from_a_tenth_to_ten(solve, kappa: float):
+def test_radius_ratios_from_0_1_to_10(solve, kappa: float):
     """Thick and thin films, with the M and L of the round contact with the same equations."""
     shape = ellipse(float(elliprd(0.0, 1.0, kappa**2) / elliprd(0.0, kappa**2, 1.0)))
     for m, ell in ((20.0, 2.0), (20.0, 15.0), (120.0, 5.0)):
@@ -424,7 +424,7 @@ def test_refusals(options: list[str], message: str):
         pyehl.check(pyehl.Case.from_text("", options))
 
 
-def test_what_is_for_circles_says_so():
+def test_functions_for_circles_refuse_ellipses():
     case = pyehl.Case.from_text(
         "&contact radius_x = 0.01 radius_y = 0.02 / &surface kind = 'fractal' /"
         "&psd reduction = 'amplitude' smooth = 'hertz' /"

@@ -186,7 +186,7 @@ def test_film_moves_with_the_mean_velocity(ratio: float, solve: Any):
     assert speed == pytest.approx(1.0, abs=0.022)
 
 
-def test_bump_through_the_film(solve: Any):
+def test_bump_higher_than_the_film(solve: Any):
     """A bump higher than the film ends in a negative film, without results."""
     done = solve(POINT, 65, DENT | {"surface.kind": "bump", "surface.amplitude": 0.3})
     assert done.code == 1

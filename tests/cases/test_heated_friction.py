@@ -30,7 +30,7 @@ FAST = {
 }
 
 
-def test_as_another_program_on_the_fields(solve, root):
+def test_agreement_with_another_program(solve, root):
     """Another program: 0.0330, isothermal 0.0563; 69 K in the film, 35 K on the walls' mean."""
     done = solve(None, 257, FAST, words=True)
     assert done["mu_isothermal"] == pytest.approx(0.0563, rel=6e-3)
@@ -66,7 +66,7 @@ def test_traction_rises_and_falls(solve, root, srr, mu):
     assert f"{done['mu']:.4f}" in row
 
 
-def test_where_it_does_not_count(solve):
+def test_heat_of_slow_sliding_is_not_computed(solve):
     """Slow sliding: not computed, and it would change nothing that could be seen."""
     slow = FAST | {"contact.slide_to_roll": 5e-5}
     left_out = solve(None, 65, slow, words=True)
@@ -173,7 +173,7 @@ def test_rough_contact(solve, velocity):
 @pytest.mark.parametrize(
     "radii", [(0.018, 0.018), (0.01, 0.04), (0.04, 0.01)], ids=["circle", "wide", "narrow"]
 )
-def test_prediction_has_it_too(radii: tuple[float, float]):
+def test_prediction_includes_the_heat(radii: tuple[float, float]):
     """The prediction applies the heat of the smooth contact under it, on its own grid."""
     keys = {
         key: value

@@ -62,7 +62,7 @@ def test_every_law_is_newtonian_when_slow(solve, name):
     assert solve(None, 65, law | {"contact.slide_to_roll": 0.0})["F"] == newtonian
 
 
-def test_one_motion_said_in_three_ways(solve):
+def test_one_motion_in_three_notations(solve):
     runs = [
         solve(None, 65, SI | WAVE | keys)
         for keys in (

@@ -56,7 +56,7 @@ def test_independent_solver():
     )
 
 
-def test_order_two():
+def test_line_contact_has_order_two():
     cases = (moes(20, 10, points, **DOMAIN) for points in (257, 513, 1025, 2049))
     films = [float(pyehl.solve(case, {"solver.accuracy": 0.01}).H_c) for case in cases]
     steps = np.diff(films)
@@ -199,7 +199,7 @@ def test_formulas():
     assert "180000 N/m" in text or "1.8e+05 N/m" in text
 
 
-def test_plan_shows_both_numbers():
+def test_plan_shows_m_of_line_and_point():
     plan = pyehl.check(roller()).plan
     assert "M = 19.738, L = 9.9877" in plan
     assert "the round contact with the same speed parameter has M = 198.19" in plan
@@ -280,7 +280,7 @@ def test_picture_and_report(root, tmp_path):
     assert "infinitely long" in page
 
 
-def test_both_kinds_of_a_line(ehl: str, tmp_path: Path):
+def test_keys_of_a_line_in_messages(ehl: str, tmp_path: Path):
     """What is expected names the keys of a line, by pyehl as by ehl."""
     keys = {"contact.shape": "line", "contact.load_per_length": 1e5, "contact.moes_m_line": 10.0}
     expected = "moes_m_line and moes_l_line, or load_per_length"

@@ -77,7 +77,7 @@ def test_strip_of_waves_across():
 
 
 @pytest.mark.parametrize("coarsening", ["classical", "alcouffe"])
-def test_half_of_a_strip_is_enough(coarsening):
+def test_half_a_strip_equals_the_whole_one(coarsening):
     """Waves that are even in Y: rows from Y = 0 to half the width, to the rounding of the steps."""
     wave = {"surface.kind": "harmonic", "surface.amplitude": 0.02, "surface.wavelength": 1.0}
     few = {"time.steps": 6, "time.skip_start": False, "solver.coarsening": coarsening}
@@ -202,11 +202,14 @@ def test_features_that_do_not_repeat_along_a_line():
     for options, what in (
         ({"surface.kind": "ridge", "surface.angle": 30.0}, "does not repeat along a line"),
         ({"surface.kind": "dent", "surface.spacing_y": 0.5}, "takes up 6.000E-01 b along the line"),
-        ({"surface.kind": "harmonic", "surface.spacing_y": 2.0}, "nothing repeats along Y"),
+        (
+            {"surface.kind": "harmonic", "surface.spacing_y": 2.0},
+            "no single feature repeats along Y",
+        ),
     ):
         with pytest.raises(pyehl.InputError, match=re.escape(what)):
             pyehl.check(case, {**options, "surface.amplitude": 0.01})
-    with pytest.raises(pyehl.InputError, match="nothing repeats along Y"):
+    with pytest.raises(pyehl.InputError, match="no single feature repeats along Y"):
         pyehl.check("cases/quick.nml", {"surface.kind": "dent", "surface.spacing_y": 2.0})
 
 
@@ -239,7 +242,7 @@ def test_strip_that_is_too_wide():
     assert pyehl.check(moes(20, 10, 129), {**wave, "surface.wavelength_y": 20.0})
 
 
-def test_strip_carries_a_fractal_surface():
+def test_fractal_surface_on_a_strip():
     tile = {
         "surface.kind": "fractal",
         "surface.pixels": 64,

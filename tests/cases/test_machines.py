@@ -301,7 +301,7 @@ def test_growing_residual_restarts_with_damped_cycles():
 
 
 @pytest.mark.long
-def test_sharp_spike_is_left_to_the_sweeps():
+def test_sharp_pressure_spike_ends_at_the_cycle_limit():
     """A ball at 2.7 GPa, kappa = 9: ends at the cycle limit where coarse grids change its spike."""
     keys = {
         "contact.radius_x": 0.002717,
@@ -321,7 +321,7 @@ def test_sharp_spike_is_left_to_the_sweeps():
 
 
 @pytest.mark.long
-def test_a_flow_that_thins_is_softened_at_first():
+def test_shear_thinning_begins_with_a_damped_flow():
     """Without that it had no first cycle on any grid."""
     contact = {
         "reduced_modulus": 2.26e11, "load": 9552.0, "radius_x": 0.01413, "radius_y": 0.8384,
@@ -339,5 +339,5 @@ def test_a_flow_that_thins_is_softened_at_first():
     assert 0.75 < films[1.301e6] / films[5.2e6] < 0.9
 
 
-def test_kinds_alternate():
+def test_kinds_of_machine_contacts_alternate():
     assert [contact.kind for contact in draw(8, 4)] == list(KINDS) * 2

@@ -75,7 +75,7 @@ def test_a_pair_on_an_ellipse():
     assert first - 1.0 == pytest.approx(rise, rel=0.5)
 
 
-def test_the_run_on_the_coarser_grid_starts_there_too():
+def test_the_coarser_run_has_the_same_start():
     """Its mean, and so the grid error, is that of the run behind a front."""
     wave = {"surface.kind": "harmonic", "surface.amplitude": 5e-3, "time.estimate_error": True}
     point = {"contact.moes_m": 200.0, "contact.moes_l": 10.0}
@@ -126,7 +126,7 @@ def test_every_surface_lies_where_the_prediction_has_it(
 
 
 @pytest.mark.long
-def test_heights_in_memory_start_there_too(tile: dict[str, Any]):
+def test_heights_in_memory_start_from_the_prediction(tile: dict[str, Any]):
     heights = np.load(tile["surface.file"])
     size = (tile["surface.length_x"], tile["surface.length_y"])
     case = pyehl.Case.from_text("", ALONE | {"time.start": "prediction"})
@@ -151,7 +151,7 @@ def test_heights_in_memory_start_there_too(tile: dict[str, Any]):
     ],
     ids=["M", "dent", "rest", "turned", "target", "amplitude"],
 )
-def test_where_there_is_no_prediction_a_front_enters(settings: dict[str, Any], why: str):
+def test_without_a_prediction_a_front_enters(settings: dict[str, Any], why: str):
     case = pyehl.Case.from_text("", ALONE | settings | {"time.start": "prediction"})
     with pyehl.Solver(case) as solver:
         while "start" not in solver.summary and not solver.done:
@@ -162,7 +162,7 @@ def test_where_there_is_no_prediction_a_front_enters(settings: dict[str, Any], w
 
 
 @pytest.mark.long
-def test_steps_that_fail_restart_behind_a_front(tile: dict[str, Any]):
+def test_failed_steps_restart_behind_a_front(tile: dict[str, Any]):
     """On this grid the film of this tile, 23 nm rms, becomes negative in the first steps."""
     np.save(tile["surface.file"], 1.15 * np.load(tile["surface.file"]))
     turned = tile | {"surface.rotate": 90.0}
@@ -186,7 +186,7 @@ def test_a_fault_of_the_package_is_no_warning(monkeypatch, fault: type[Exception
         pyehl.solve(pyehl.Case.from_text("", case))
 
 
-def test_the_program_refuses_it(ehl: str, tmp_path: Path):
+def test_program_refuses_a_predicted_start(ehl: str, tmp_path: Path):
     (tmp_path / "case.nml").write_text(
         "&time start = 'prediction' /\n&surface kind = 'fractal' /\n"
     )

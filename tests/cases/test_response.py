@@ -123,7 +123,7 @@ def test_an_interrupt_of_the_first_tier_leaves_no_folder(tmp_path: Path, capsys,
     assert "interrupted; no run has ended: nothing is kept" in capsys.readouterr().err
 
 
-def test_an_interrupt_leaves_the_tiers_that_have_ended(tmp_path: Path):
+def test_an_interrupt_keeps_the_finished_tiers(tmp_path: Path):
     def interrupt(name: str, done: int, total: int) -> None:
         if name == "middle" and done == 3:
             raise KeyboardInterrupt

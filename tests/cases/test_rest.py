@@ -19,7 +19,7 @@ REST = WAVE | {"surface.velocity_ratio": 0.0}
 
 
 @pytest.mark.long
-def test_rest_is_the_limit_of_slow_motion(solve):
+def test_stationary_wave_is_the_limit_of_slow_motion(solve):
     """The mean over the positions of a wave at rest is that of a wave that creeps through."""
     positions = np.arange(8) / 8.0 * WAVELENGTH
     ratios = []
@@ -36,7 +36,7 @@ def test_rest_is_the_limit_of_slow_motion(solve):
     assert np.mean(ratios) == pytest.approx(slow["mu_ratio"], rel=2e-3)
 
 
-def test_hardly_rough_is_smooth(solve):
+def test_vanishing_roughness_is_smooth(solve):
     done = solve(POINT, POINTS, REST | {"surface.amplitude": 7e-8})
     assert done.converged
     # the algebraic error of two friction integrals
@@ -44,7 +44,7 @@ def test_hardly_rough_is_smooth(solve):
     assert done["H_c_rough"] == pytest.approx(done["H_c"], rel=1e-4)
 
 
-def test_it_lies_where_x_start_says(solve):
+def test_stationary_wave_has_its_origin_at_x_start(solve):
     """The pattern is everywhere, no front: A cos(2 pi (X - x_start)/l) cos(2 pi Y/l)."""
     done = solve(POINT, POINTS, REST | {"surface.x_start": 0.1}, fields=True)
     x, y = done.field("X")[:, None], done.field("Y")
@@ -112,7 +112,7 @@ def test_map_at_rest_equals_wave_at_rest(solve, tmp_path):
     assert as_map["mu_ratio"] == pytest.approx(as_wave["mu_ratio"], rel=1e-6)
 
 
-def test_higher_than_the_film(solve):
+def test_roughness_higher_than_the_film_is_added_in_parts(solve):
     """Waves that would pierce the film at once grow in parts; what does not converge states so."""
     done = solve(POINT, POINTS, REST | {"surface.amplitude": 0.0712})
     assert done.converged
@@ -140,7 +140,7 @@ def test_too_slow_is_refused(drive, tmp_path, driver: str):
 
 
 @pytest.mark.parametrize("velocity_ratio", [0.1, 0.5, 1.5, 2.0])
-def test_other_velocities(solve, velocity_ratio: float):
+def test_wave_at_other_velocities(solve, velocity_ratio: float):
     done = solve(POINT, POINTS, WAVE | {"surface.velocity_ratio": velocity_ratio})
     assert done.converged
     assert done["T_period"] == pytest.approx(WAVELENGTH / velocity_ratio, rel=1e-12)

@@ -254,7 +254,7 @@ def test_a_bad_table(tmp_path, lines, words):
         ({"bodies.radius_x1": 0.01, "bodies.radius_y1": 1.0}, "bodies.radius_y1"),
     ],
 )
-def test_what_a_roller_does_not_have(options, words):
+def test_keys_that_a_roller_does_not_take(options, words):
     case = (
         roller()
         if "bodies.radius_x1" not in options

@@ -220,7 +220,7 @@ def test_target_error(solve, point: tuple[float, float], target: float):
     assert coarser["H_c_error_grid"] > target * coarser["H_c"]
 
 
-def test_target_error_out_of_reach(solve):
+def test_target_error_missed_on_the_finest_grid(solve):
     done = solve((1000.0, 10.0), 65, {"grid.target_error": 1e-4, "grid.max_points": 257})
     assert (done["status"], done.code) == ("target missed", 1)
     assert done["H_c_error"] > 1e-4 * done["H_c"]

@@ -107,7 +107,7 @@ def test_errors_of_thin_films_on_a_single_grid(moes_m, ratio):
         assert off <= float(coarse[f"{name}_error"]) < 2.5 * off
 
 
-def test_no_alpha_is_no_l(root: Path):
+def test_alpha_of_0_is_an_l_of_0(root: Path):
     """A contact in SI units with alpha = 0 is that of M with L = 0, in every law."""
     file = root / "cases/soft.nml"
     by_si = pyehl.solve(file, {"grid.points": 129}, check=False)
@@ -136,7 +136,7 @@ def test_water(root: Path):
     assert not thin["applies"]
 
 
-def test_strain_is_named(root: Path):
+def test_large_strain_is_reported(root: Path):
     reported = str(pyehl.solve(root / "cases/soft.nml", {"grid.points": 65}).attrs["assessment"])
     assert "the contact radius is 0.11 of the radius of curvature (p_h/E' = 0.034)" in reported
     assert "a strain of about 2.1 %" in reported
@@ -153,7 +153,7 @@ def test_strain_is_named(root: Path):
         ("&lubricant roelands_z=3.0 /", "1:23"),
     ],
 )
-def test_an_exponent_that_no_liquid_has(text, found):
+def test_an_implausible_roelands_exponent(text, found):
     way_out = r"in \[0.001, 2\].*viscosity_law = 'barus'"
     with pytest.raises(pyehl.InputError, match=way_out) as error:
         pyehl.Case.from_text(text).resolve()
@@ -167,7 +167,7 @@ def test_no_alpha_where_it_is_needed(root: Path):
     with pytest.raises(pyehl.InputError, match=r"moes_l = 0.0, or a pressure_viscosity above 0"):
         pyehl.check(pyehl.Case(), moes(100.0, 5.0), {"lubricant.pressure_viscosity": 0.0})
     rough = {"surface.kind": "fractal", "surface.pixels": 32, "grid.points": 65}
-    with pytest.raises(pyehl.InputError, match="needs a viscosity that rises with pressure"):
+    with pytest.raises(pyehl.InputError, match="needs a viscosity that increases with pressure"):
         pyehl.predict(root / "cases/soft.nml", rough)
     page = pyehl.film(root / "cases/soft.nml", rough).summary
     assert page["lambda_ratio_central"] > 0.0

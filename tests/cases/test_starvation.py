@@ -47,7 +47,7 @@ def test_layer_of_a_point_contact(flooded, layer):
 
 @pytest.mark.parametrize("law", ["eyring", "carreau"])
 @pytest.mark.parametrize("radius_y", [0.01, 0.03])
-def test_layer_with_a_flow_that_thins(law, radius_y):
+def test_oil_layer_with_a_shear_thinning_flow(law, radius_y):
     """A stress that is never reached leaves the film of the Newtonian flow."""
     contact = {k: v for k, v in SI.items() if k != "radius"}
     contact |= {"radius_x": 0.01, "radius_y": radius_y, "slide_to_roll": 0.3}
@@ -64,14 +64,14 @@ def test_layer_with_a_flow_that_thins(law, radius_y):
     assert 0.8 * float(plain.H_c) < float(thin.H_c) < float(plain.H_c)
 
 
-def test_a_thick_layer_floods():
+def test_a_thick_layer_gives_a_flooded_contact():
     thick, zero = solve(film_hertz=50.0), solve(grid={"border": "zero"})
     assert float(thick.H_c) == pytest.approx(float(zero.H_c), rel=1e-5)
     assert float(thick.H_c_error_domain) == pytest.approx(float(zero.H_c_error_domain), rel=1e-2)
 
 
 @pytest.mark.parametrize("layer", [0.02, 0.06, 0.15])
-def test_a_line_lets_all_oil_through(layer):
+def test_all_oil_passes_a_line_contact(layer):
     result, flooded = solve(LINE, 129, film_hertz=layer), solve(LINE, 129, grid={"border": "zero"})
     if layer > 0.11:
         assert float(result.H_c) == pytest.approx(float(flooded.H_c), rel=1e-4)
@@ -81,7 +81,7 @@ def test_a_line_lets_all_oil_through(layer):
     assert float(result.H_c) * DENSITY == pytest.approx(layer, rel=0.01)
 
 
-def test_position_is_the_border_and_no_error():
+def test_inlet_position_is_the_border_without_an_error():
     place = {"x_inlet": -1.3, "x_outlet": 1.5, "y_extent": 2.0}
     meant = solve(grid={"x_outlet": 1.5, "y_extent": 2.0}, points=257, position_hertz=1.3)
     domain = solve(grid=place | {"border": "zero"}, points=257)
@@ -231,7 +231,7 @@ def test_thick_films_that_begin_near_the_contact():
     assert films[0] < float(newtonian.H_c) == pytest.approx(films[0], rel=0.05)
 
 
-def test_a_layer_without_a_solution_is_told_what_has_one():
+def test_a_layer_without_a_solution_names_a_remedy():
     """A wide contact at M = 17 000, where finer grids do not help."""
     case = pyehl.Case(
         contact={"load": 2444.0, "mean_velocity": 0.7, "radius_x": 0.01196, "radius_y": 0.1784},

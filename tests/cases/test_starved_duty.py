@@ -190,7 +190,7 @@ def test_a_slow_duty_is_a_sequence_of_steady_contacts():
     assert away[2] == pytest.approx(0.5 * away[1], rel=0.1)
 
 
-def test_a_layer_that_falls_ends_in_its_steady_contact():
+def test_a_decreasing_layer_ends_in_its_steady_contact():
     """The film stays until what was there has passed, and then is that of the new layer."""
     data = pyehl.solve(line([0.0, 0.5, 1.0, 10.0], inlet_film=[1.0, 1.0, 0.5, 0.5]))
     time, h_c = history(data, "T", "H_c")

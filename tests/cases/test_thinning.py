@@ -68,7 +68,7 @@ def test_strong_thinning(solve):
 
 
 @pytest.mark.parametrize("srr", [1.0, 1.4])
-def test_films_far_below_the_newtonian_one(solve, srr):
+def test_films_far_thinner_than_the_newtonian_one(solve, srr):
     """n = 0.3: the film is a seventh of the Newtonian one, from which the solver cannot begin."""
     done = solve(
         None, 65, CARREAU | {"lubricant.carreau_exponent": 0.3, "contact.slide_to_roll": srr}
@@ -79,7 +79,7 @@ def test_films_far_below_the_newtonian_one(solve, srr):
     assert done["H_c"] < newtonian["H_c"] / 6.0
 
 
-def test_cached_factors_leave_the_result_alone(solve):
+def test_cached_factors_do_not_change_the_result(solve):
     """A run that keeps its factors from cycle to cycle, to two ends."""
     keys = CARREAU | {"lubricant.carreau_exponent": 0.5, "contact.slide_to_roll": 0.5}
     usual, strict = (solve(None, 65, keys | {"solver.accuracy": a}) for a in (0.1, 0.001))

@@ -66,7 +66,7 @@ def test_paper_scheme_damps_a_wave(wavelength: float, h: float):
     assert size[-1] < 0.95
 
 
-def test_page_says_what_is_left(root: Path):
+def test_page_states_the_remaining_amplitude(root: Path):
     """Over the length of a contact of 128 nodes, by the nodes of a wave."""
     left = [100.0 * kept(2.0 * np.pi / nodes) ** 128 for nodes in (32, 16, 12)]
     text = (root / "docs/theory/time-steps.md").read_text(encoding="utf-8")

@@ -29,7 +29,7 @@ def surfaces_of(
     return keys | {f"second_surface.{key}": value for key, value in second.items()}
 
 
-def test_exchange_of_the_two(solve):
+def test_exchange_of_the_two_bodies(solve):
     """Body 1 with one roughness and body 2 with the other, named in either order: the same bits."""
     one = solve(POINT, POINTS, surfaces_of(WAVE, OTHER, slide_to_roll=0.5), fields=True)
     other = solve(
@@ -55,7 +55,7 @@ def test_one_smooth_body(solve):
     assert one["mu_ratio"] == other["mu_ratio"]
 
 
-def test_both_at_the_mean_velocity_are_one(solve):
+def test_two_surfaces_without_sliding_are_one(solve):
     """Without sliding the two are one surface with the sum of the heights."""
     both = solve(
         POINT, POINTS, surfaces_of(WAVE, WAVE | {"amplitude": 3e-3}, slide_to_roll=0), fields=True
@@ -71,7 +71,7 @@ def test_both_at_the_mean_velocity_are_one(solve):
     assert both["mu_ratio"] > 1.02
 
 
-def test_at_rest_in_all_words(solve):
+def test_at_rest_in_each_notation(solve):
     """One rough surface at rest beside a smooth one on the move: the same bits however stated."""
     still = OTHER | {"velocity_ratio": 0.0}
     runs = [
@@ -115,7 +115,7 @@ def test_no_height_is_smooth(solve, rough, flat):
     assert "second_amplitude" not in beside.summary
 
 
-def test_one_at_rest(solve):
+def test_one_body_at_rest(solve):
     """At SRR = 2 body 2 stands: with next to nothing on body 1 this is the steady contact."""
     faint = WAVE | {"amplitude": 1e-14}
     moving = solve(POINT, POINTS, surfaces_of(faint, OTHER, slide_to_roll=2), fields=True)
@@ -147,7 +147,7 @@ def test_one_at_rest(solve):
     assert np.array_equal(both.field("RR"), alone.field("RR") + steady.field("RR"))
 
 
-def test_small_waves_add(solve):
+def test_small_waves_superpose(solve):
     """To first order each wave is deformed as if it were alone, at 1.25 and 0.75 times u."""
     apart = []
     for amplitude in (2e-3, 1e-3):
@@ -212,7 +212,7 @@ def test_no_common_period(solve):
 
 
 @pytest.mark.long
-def test_surfaces_that_hardly_meet(solve):
+def test_surfaces_with_little_relative_motion(solve):
     """At SRR = 0.02 waves of one length are where they began after 99 periods, and not before."""
     keys = surfaces_of(WAVE, WAVE, slide_to_roll=0.02)
     short = solve(POINT, POINTS, keys, words=True)
@@ -247,7 +247,7 @@ def test_dent_over_roughness(solve, resting):
     assert done.converged
     plan = done.plan
     assert "&surface: a dent passes once" in plan
-    assert ("then the one with what is at rest" in plan) == resting
+    assert ("then that with the roughness at rest" in plan) == resting
     smooth = solve(POINT, POINTS, surfaces_of(DENT, {}, slide_to_roll=srr))
     assert done["H_min_rough"] < smooth["H_min_rough"]
     assert done["P_rise_max"] > smooth["P_rise_max"]

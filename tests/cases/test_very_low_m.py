@@ -10,7 +10,7 @@ from pyehl.conclusion import conclude
 # H_c in the limit of fine grids, from 257 and 513 nodes
 @pytest.mark.parametrize(("moes_m", "limit"), [(0.05, 79793.0), (0.3, 671.25), (1.0, 27.093)])
 @pytest.mark.parametrize("points", [33, 65, 129])
-def test_error_covers_and_says_something(moes_m: float, limit: float, points: int):
+def test_error_covers_and_is_not_too_large(moes_m: float, limit: float, points: int):
     settings = {"contact.moes_m": moes_m, "contact.moes_l": 0.0, "grid.points": points}
     with pyehl.Solver(pyehl.Case.from_text("", settings)) as solver:
         assert solver.run()

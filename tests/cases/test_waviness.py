@@ -90,7 +90,7 @@ SCHEMES = ["narrow", pytest.param("paper", marks=pytest.mark.long)]
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
-def test_algebraic_error_is_what_differs(solve, scheme: str):
+def test_only_the_algebraic_error_differs(solve, scheme: str):
     """With tight steps the same discrete problem gives the same digits: five are known."""
     row = small(scheme)
     done = solve(POINT, row.points, settings(row) | TIGHT)
@@ -185,7 +185,7 @@ def hardest(root: Path) -> dict[str, dict[str, float]]:
     return {name: {k: float(v) for k, v in row.items()} for name, row in rows.items()}
 
 
-def test_page_has_what_either_coarsening_costs(root: Path):
+def test_page_has_the_cost_of_both_coarsenings(root: Path):
     text = (root / "docs" / "theory" / "coarse-grids.md").read_text(encoding="utf-8")
     auto, classical = (hardest(root)[name] for name in ("auto", "classical"))
     cost = "{:.1f} cycles per step, classical coarsening {:.1f}"

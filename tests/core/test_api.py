@@ -202,7 +202,7 @@ def test_no_size(size: object):
         pyehl.Topography(WAVES, size)
 
 
-def test_holes_are_no_heights():
+def test_missing_points_are_refused_as_heights():
     with pytest.raises(pyehl.InputError, match="not finite"):
         pyehl.Topography(np.ma.masked_less(WAVES, 3e-7), (1e-4, 1e-4))
 
@@ -285,7 +285,7 @@ def test_response_is_read_as_it_was_written(tmp_path: Path, monkeypatch):
     xr.testing.assert_identical(pyehl.response(case, output=tmp_path / "out"), ds)
 
 
-def test_no_solution_raises_with_what_there_is(fractal: Path, tmp_path: Path):
+def test_no_solution_raises_with_the_last_fields(fractal: Path, tmp_path: Path):
     with pytest.raises(pyehl.NotConverged, match="no solution") as caught:
         pyehl.solve(fractal, output=tmp_path / "out")
     assert isinstance(caught.value, pyehl.EhlError)
@@ -295,7 +295,7 @@ def test_no_solution_raises_with_what_there_is(fractal: Path, tmp_path: Path):
     assert not pyehl.solve(fractal, check=False).attrs["converged"]
 
 
-def test_map_needs_no_further_call(fractal: Path, tmp_path: Path):
+def test_a_saved_tile_gives_the_same_bits(fractal: Path, tmp_path: Path):
     heights = pyehl.predict(fractal).surface.heights
     np.save(tmp_path / "map.npy", heights)
     words = ("surface.kind=map", f"surface.file={tmp_path / 'map.npy'}")
@@ -304,7 +304,7 @@ def test_map_needs_no_further_call(fractal: Path, tmp_path: Path):
     assert np.array_equal(by_map.H.values, same_fields.H.values)
 
 
-def test_progress_is_told(smooth: Path, capsys):
+def test_progress_is_reported(smooth: Path, capsys):
     seen = []
     pyehl.solve(smooth, progress=lambda solver: seen.append(solver.done))
     assert seen[-1]
@@ -439,7 +439,7 @@ def test_a_case_that_cannot_be_planned_is_named(tmp_path: Path, capsys, drive):
     assert "expected: contact.load" in stated[0]
 
 
-def test_plot_takes_a_prediction_or_says_what_it_takes():
+def test_plot_takes_predictions_and_refuses_other_objects():
     case = pyehl.Case.from_text("", {"surface.kind": "harmonic", "surface.wavelength": 0.5})
     result = pyehl.predict(case, tracks=1)
     assert set(pyehl.plot(result)) == set(pyehl.plot(result.data))
@@ -457,7 +457,7 @@ def test_plot_takes_a_prediction_or_says_what_it_takes():
         ("stribeck", "pyehl.commands.stribeck.perform", "what is finished is kept; the same com"),
     ],
 )
-def test_an_interrupt_says_what_is_kept(
+def test_an_interrupt_reports_what_is_kept(
     cases: Path, tmp_path: Path, capsys, monkeypatch, command: str, stopped: str, states: str
 ):
     def interrupted(*args, **words):

@@ -108,7 +108,7 @@ def test_bad_argument(quick: str, name: str):
     assert part in str(caught.value)
 
 
-def test_one_option_is_one_option(quick: str):
+def test_one_text_is_one_option(quick: str):
     """A text in place of a list of texts is no list of its characters."""
     for case in (
         pyehl.Case.from_text("", SMALL),
@@ -139,7 +139,7 @@ def test_derived_values_follow_new_ones():
     assert after == pytest.approx(0.5 * before, rel=1e-12)
 
 
-def test_what_a_terminal_hands_over_need_not_be_text(quick: str):
+def test_arguments_that_are_not_utf_8(quick: str):
     """Bytes of a file name that are no UTF-8 come as lone surrogates."""
     name = os.fsdecode(b"m\xff.npy")
     with pytest.raises(pyehl.InputError, match=r"surface\.file"):

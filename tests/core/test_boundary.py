@@ -49,7 +49,7 @@ def test_one_exception_class_per_code(root: Path):
     assert classes == {n: {"badinput": "input"}.get(name, name) for n, name in names.items()}
 
 
-def test_unknown_code_is_internal():
+def test_unknown_code_is_an_internal_error():
     with pytest.raises(errors.InternalError, match="what"):
         errors.check(99, b"what")
     errors.check(0, b"")
@@ -130,7 +130,7 @@ def test_closed_solver_raises():
             errors.check(*ehl.interrupt(wrong))
 
 
-def test_a_number_is_never_used_again(number: int):
+def test_a_handle_is_never_used_again(number: int):
     """Even if its slot is."""
     errors.check(*ehl.close_case(number))
     text = Case.from_text(SMALL).text.encode()
@@ -206,7 +206,7 @@ def test_deflection_of_the_hertz_pressure():
         library.deflection(pressure, h, h, "fem")
 
 
-def test_texts_of_any_length_arrive_whole(monkeypatch: pytest.MonkeyPatch):
+def test_texts_of_any_length_arrive_complete(monkeypatch: pytest.MonkeyPatch):
     """The library states the length of a list, and is called again with a buffer of that length."""
     monkeypatch.setattr(handle, "MIN_BYTES", 7)
     monkeypatch.setattr(handle, "MIN_VALUES", 3)
@@ -217,7 +217,7 @@ def test_texts_of_any_length_arrive_whole(monkeypatch: pytest.MonkeyPatch):
         assert solver.summary == short
 
 
-def test_message_that_does_not_fit_says_so():
+def test_a_truncated_message_states_it():
     with pytest.raises(errors.InputError) as caught:
         library.deflection(np.zeros((33, 33)), 0.1, 0.1, "x" * 9000)
     assert str(caught.value).endswith("... (the rest does not fit)")

@@ -68,7 +68,7 @@ def test_lines_that_no_writer_makes_are_refused():
         namelist.values("contact\n   load = 1\n/\n")
 
 
-def test_values_survive_being_written():
+def test_values_are_read_as_written():
     """Words with quotes and exclamation marks, numbers to the last digit, signs, truth values."""
     groups = {
         "surface": {"file": "a 'b' ! c.npy", "x_start": -2.5e-300, "sign": -1, "rms": 0.1 + 0.2},
@@ -286,7 +286,7 @@ FIG_2 = (
         ),
     ],
 )
-def test_what_follows_from_an_override_follows(given: str, option: str, followers: dict):
+def test_derived_values_follow_an_override(given: str, option: str, followers: dict):
     """An override of a resolved case does what it does on the case as it was given."""
     text = FIG_2.format(given)
     first = Case.from_text(text)
@@ -303,7 +303,7 @@ def test_what_follows_from_an_override_follows(given: str, option: str, follower
     assert changed.with_options(option).text == changed.text
 
 
-def test_defaults_give_way_to_the_other_kind_of_contact():
+def test_given_keys_replace_defaults_of_the_other_contact():
     case = Case.from_text("").with_options("contact.moes_m=500.0")
     assert case.resolve()["contact"]["moes_m"] == 500.0
     with pytest.raises(InputError, match="contradicts"):

@@ -116,7 +116,7 @@ def assert_shown(shown: str, printed: str) -> None:
 
 
 @pytest.mark.parametrize("name", [name for name in EXECUTED if name != "README.md"])
-def test_commands_work(
+def test_commands_in_documents_work(
     root: Path, folder: Path, drivers: dict[str, list[str]], command: Command, name: str
 ):
     assert commands(root / name) or name.startswith(("docs/", "benchmarks/", "CONTRIBUTING"))
@@ -153,7 +153,7 @@ def run_python(block: str, folder: Path) -> str:
     return done.stdout
 
 
-def test_commands_that_are_not_run_name_what_is_there(root: Path):
+def test_commands_in_documents_name_existing_files(root: Path):
     options = set(re.findall(r"^option\('(\w+)'", (root / "meson.options").read_text(), re.M))
     seen = 0
     for name in DOCUMENTS:
@@ -208,7 +208,7 @@ def test_readme_prints_what_is_printed(root: Path, folder: Path, drivers: dict[s
         ("smooth.csv:15: a", "smooth.csv:16: a", False),
     ],
 )
-def test_a_line_is_shown_if_its_words_and_numbers_are(shown: str, printed: str, same: bool):
+def test_a_line_is_shown_if_its_words_and_numbers_agree(shown: str, printed: str, same: bool):
     assert is_shown(shown, printed) == same
 
 
@@ -310,7 +310,7 @@ def test_every_status_has_a_line(root: Path):
         assert set(re.findall(r"^\| `([^`]+)` \|", part, re.MULTILINE)) == expected
 
 
-def test_map_is_in_the_order_of_the_build(root: Path):
+def test_module_map_has_the_order_of_the_build(root: Path):
     """meson.build lists the modules so that each uses only those before it; so does the map."""
     built = re.findall(r"'(\w+/\w+\.f90)'", (root / "fortran" / "meson.build").read_text())
     listed = mapped(root)
@@ -318,7 +318,7 @@ def test_map_is_in_the_order_of_the_build(root: Path):
     assert folders[1] == [*folders[0], "bind"]
 
 
-def test_modules_named_in_the_equation_table_hold_what_it_says(root: Path):
+def test_modules_of_the_equation_table_have_its_routines(root: Path):
     """Routines that fortran/README.md names are in the files that it names."""
     text = (root / "fortran" / "README.md").read_text()
     result = re.findall(r"((?:`\w+`(?:, )?)+) in `([\w/]+\.f90)`", text)
@@ -359,7 +359,7 @@ def test_theory_names_files_that_are_there(root: Path):
             assert known or ("/" not in name and name in files), (page.name, name)
 
 
-def test_a_v_cycle_is_read_in_few_files(root: Path):
+def test_a_v_cycle_is_in_few_files(root: Path):
     """From the program to the kernel each file is used by one before it, or made by its factory."""
     text = (root / "fortran/README.md").read_text(encoding="utf-8")
     part = text.split("## From `ehl` to a V cycle\n")[1].split("\n## ")[0]
@@ -406,7 +406,7 @@ def test_the_book_is_not_longer_than_it_says(script):
 
 
 @pytest.mark.long
-def test_a_page_that_a_phone_cuts_is_found(script, tmp_path):
+def test_a_page_too_wide_for_a_phone_is_found(script, tmp_path):
     phone = script("docs/check_phone.py")
     head = '<!doctype html><meta name="viewport" content="width=device-width">'
     (tmp_path / "good.html").write_text(f"{head}<article><p>words</p></article>")

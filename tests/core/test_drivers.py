@@ -123,7 +123,7 @@ def test_fractal_surface_is_the_same_for_both_drivers(drive, tmp_path: Path):
 
 
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
-def test_not_converged_is_said(drive, tmp_path: Path, driver: str):
+def test_not_converged_is_reported(drive, tmp_path: Path, driver: str):
     (tmp_path / "case.nml").write_text(SMALL)
     options = ["--set", "solver.max_cycles=1", "--set", "solver.accuracy=1e-6"]
     done = drive(driver, "case.nml", "-o", "out", *options)
@@ -133,7 +133,7 @@ def test_not_converged_is_said(drive, tmp_path: Path, driver: str):
 
 
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
-def test_earlier_result_gives_way(drive, tmp_path: Path, driver: str):
+def test_earlier_fields_are_removed(drive, tmp_path: Path, driver: str):
     (tmp_path / "case.nml").write_text(SMALL)
     assert drive(driver, "case.nml", "-o", "out").returncode == 0
     assert drive(driver, "case.nml", "-o", "out", "--set", "output.fields=.false.").returncode == 0
@@ -148,7 +148,7 @@ def test_earlier_result_gives_way(drive, tmp_path: Path, driver: str):
 
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_interrupt_keeps_what_there_is(drivers, tmp_path: Path, driver: str, number: int):
+def test_interrupt_keeps_the_present_state(drivers, tmp_path: Path, driver: str, number: int):
     (tmp_path / "case.nml").write_text("&contact moes_m = 200.0 /\n&grid points = 1025 /\n")
     options = ["--set", "solver.accuracy=1e-6", "--set", "solver.max_cycles=1000"]
     with subprocess.Popen(
@@ -236,7 +236,7 @@ def test_load_refuses_other_folders(tmp_path: Path):
         pyehl.load(tmp_path)
 
 
-def test_nobody_reads_to_the_end(drivers: dict[str, list[str]], cases: Path):
+def test_closed_pipe_ends_without_a_traceback(drivers: dict[str, list[str]], cases: Path):
     """As behind `| head`: no traceback."""
     with subprocess.Popen(
         [*drivers["pyehl"][:-1], "check", str(cases / "quick.nml")],

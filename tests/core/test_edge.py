@@ -92,7 +92,7 @@ def test_full_disk_is_reported_and_leaves_no_folder(folder: Path, size: int):
     assert not (folder / "full").exists()
 
 
-def test_no_memory_on_the_way(folder: Path):
+def test_no_more_memory_on_coarser_grids(folder: Path):
     """What a run of 4097 x 4097 nodes is given is enough for the coarser grids."""
     words = ["run", "case.nml", "-o", "large", "--set", "grid.points=4097"]
     done = limited(folder, resource.RLIMIT_AS, 600 * 2**20, *words)
@@ -103,7 +103,7 @@ def test_no_memory_on_the_way(folder: Path):
 
 
 @pytest.mark.parametrize("out", ["file/x", "/proc/pyehl"])
-def test_no_place_for_a_folder(command, folder: Path, out: str):
+def test_folder_in_an_impossible_place(command, folder: Path, out: str):
     (folder / "file").write_text("", encoding="utf-8")
     done = command(folder, "run", "case.nml", "-o", out)
     assert done.returncode == 2

@@ -53,7 +53,7 @@ def folder(path: Path) -> str:
     return path.parent.name
 
 
-def test_arrows_point_one_way(root: Path):
+def test_layers_use_only_lower_layers(root: Path):
     result = modules(root)
     assert len(result) > 20
     wrong = [
@@ -72,7 +72,7 @@ def test_every_used_module_is_known(root: Path):
     assert not unknown
 
 
-def test_numerics_does_not_know_cases(root: Path):
+def test_numerics_use_no_cases(root: Path):
     wrong = [
         f"{name} uses {other}"
         for name, (path, used) in modules(root).items()
@@ -100,7 +100,7 @@ OWNED = [
 
 
 @pytest.mark.parametrize(("owner", "pattern"), OWNED)
-def test_one_owner(root: Path, owner: str, pattern: str):
+def test_each_routine_has_one_module(root: Path, owner: str, pattern: str):
     """Discrete equations and the macroscopic contact are written once: whoever needs them asks."""
     library = root / "fortran"
     # symmetric operators as such, their transfers and products are no discretisation
@@ -116,7 +116,7 @@ def test_one_owner(root: Path, owner: str, pattern: str):
     assert result == set(owner.split())
 
 
-def test_module_is_named_as_its_file(root: Path):
+def test_module_has_the_name_of_its_file(root: Path):
     for name, (path, _) in modules(root).items():
         if folder(path) in ("app", "test"):
             continue

@@ -90,7 +90,7 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
         "a liquid without a volume",
         "&lubricant density_law = §'tait' tait_modulus = 2e8 tait_rate = 1.0 /",
         [],
-        ["no density that rises with pressure", "lower load"],
+        ["no density that increases with pressure", "lower load"],
     ),
     (
         "range upside down",
@@ -222,7 +222,7 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("decimal comma in an exponent", "&lubricant viscosity = 4§,0e-2/", [], ["decimal comma"]),
     ("list of values", "&grid points = 65, §129 /", [], ["second value", "grid.points"]),
     ("list without a comma", "&grid points = 65 §129 /", [], ["grid.points"]),
-    ("repeat count", "&grid points = §2*65 /", [], ["grid.points", "one plain number"]),
+    ("repeat count", "&grid points = §2*65 /", [], ["grid.points", "a single number"]),
     ("unit", "&contact load = 600 §N /", [], ["unit", "contact.load", "unit N, not written"]),
     ("unit with a slash", "&contact mean_velocity = 0.84 §m/s /", [], ["unit", "mean_velocity"]),
     ("unit without a blank", "&contact load = 600§N /", [], ["contact.load", "after the number"]),

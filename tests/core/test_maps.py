@@ -74,7 +74,7 @@ def test_run_of_a_scan(scan: Path, tmp_path: Path, capsys):
     )
 
 
-def test_program_takes_what_pyehl_surface_writes(scan: Path, tmp_path: Path, drive, capsys):
+def test_program_accepts_the_tile_of_pyehl_surface(scan: Path, tmp_path: Path, drive, capsys):
     case = write_case(tmp_path / "case.nml", "scan.x3p", "outliers = 50.0 track = 1e-5")
     refused = drive("ehl", case, "-o", "none")
     assert refused.returncode == 2

@@ -84,7 +84,7 @@ def test_limit_of_the_address_space(tmp_path: Path):
 
 @pytest.mark.parametrize("points", [257, 513])
 @pytest.mark.parametrize("kind", ["smooth", "harmonic"])
-def test_need_covers_what_is_taken(points: int, kind: str):
+def test_estimated_memory_covers_the_memory_used(points: int, kind: str):
     """The summary has the bytes of the grids in the end; time steps hold more."""
     case = pyehl.Case.from_text(WAVE, [f"grid.points={points}", f"surface.kind={kind}"])
     with pyehl.Solver(case) as solver:
@@ -95,7 +95,7 @@ def test_need_covers_what_is_taken(points: int, kind: str):
     assert taken <= float(need[1]) <= 2.5 * taken + 2.0
 
 
-def test_need_of_many_points_is_told(cases: Path):
+def test_memory_of_a_fine_grid_is_checked_before_the_run(cases: Path):
     """Before the finest grid is set up; a smooth contact of 4097 points is half of the domain."""
     with pyehl.Solver(cases / "quick.nml", "grid.points=4097") as solver:
         reported = re.search(r"need +about ([\d.]+) GB of memory and (\d+) s", solver.describe())
@@ -104,7 +104,7 @@ def test_need_of_many_points_is_told(cases: Path):
     assert 2 < int(reported[2]) < 60
 
 
-def test_what_does_not_fit_is_refused_by_its_key(cases: Path, tmp_path: Path):
+def test_the_message_names_the_key_that_needs_memory(cases: Path, tmp_path: Path):
     large = ("surface.kind=harmonic", "output.frame_interval=1e-12", "time.steps=10000000")
     with pytest.raises(NoMemoryError, match=r"grid.points = 4097 .*frame_interval = 1e-12 needs"):
         pyehl.Solver(cases / "quick.nml", "grid.points=4097", *large)

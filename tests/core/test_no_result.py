@@ -97,17 +97,17 @@ def test_film_breakdown_of_a_feature_in_metres():
             "not settled",
             "time.tolerance allows 1.0E-08 of it; give a larger time.max_periods with --resume",
         ),
-        ([], 2, "interrupted", "stopped from outside in the smooth contact on 33 x 33 nodes"),
+        ([], 2, "interrupted", "interrupted in the smooth contact on 33 x 33 nodes"),
         (
             ["time.estimate_error=.false."],
             30,
             "interrupted",
-            "stopped from outside in the time step to T = 2.3750 on 65 x 65 nodes; --resume "
+            "interrupted in the time step to T = 2.3750 on 65 x 65 nodes; --resume "
             "continues from there",
         ),
     ],
 )
-def test_other_ends(options: list[str], stop: int | None, status: str, words: str):
+def test_messages_of_other_statuses(options: list[str], stop: int | None, status: str, words: str):
     result = end(WAVE, *options, stop=stop)
     assert result["status"] == status
     assert result["assessment"] == f"no result: the status is '{status}': {result['message']}"
@@ -156,7 +156,7 @@ def test_roller_names_a_profile_with_a_solution(
         assert solver.run()
 
 
-def test_a_result_has_no_message():
+def test_a_converged_result_has_no_message():
     with Solver(Case.from_text(WAVE, ["surface.kind=smooth"])) as solver:
         assert solver.run()
         assert "message" not in solver.summary
@@ -174,5 +174,5 @@ def test_interrupted_in_the_run_for_the_grid_error(ratio: float, at: str):
             solver.advance()
         solver.interrupt()
         reported = solver.summary["message"]
-    assert reported.startswith(f"stopped from outside in the run for the grid error: {at}")
+    assert reported.startswith(f"interrupted in the run for the grid error: {at}")
     assert " on 33 x 33 nodes" in reported

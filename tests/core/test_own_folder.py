@@ -80,7 +80,7 @@ def test_solver_of_the_same_process_is_refused(case: Path):
     ],
     ids=["dead", "number of another", "another machine", "empty", "not ours"],
 )
-def test_what_a_lock_says(drive, case: Path, text: str, refused: bool):
+def test_locks_and_their_messages(drive, case: Path, text: str, refused: bool):
     lock = case.parent / "out.lock"
     words = {"dead": dead_process(), "own": os.getpid(), "host": socket.gethostname()}
     lock.write_text(text.format(**words))
@@ -134,7 +134,7 @@ def test_every_command_refuses_a_long_name(drive, command, case: Path, words: st
     assert sorted(folder.iterdir()) == before
 
 
-def test_what_killed_runs_left_goes(drive, case: Path):
+def test_leftovers_of_killed_runs_are_removed(drive, case: Path):
     dead, folder = dead_process(), case.parent
     names = [f"out.partial-{dead}", f"out.partial-{dead}-2", f"out.partial-{os.getpid()}"]
     names += [f"other.partial-{dead}", "out.partial-mine"]
@@ -178,7 +178,9 @@ def test_next_result_removes_locks_of_killed_runs(drivers, command, case: Path, 
 
 @DRIVERS
 @pytest.mark.parametrize("target", ["full", "closed"])
-def test_lost_standard_output_ends_with_a_message(drivers, case: Path, driver: str, target: str):
+def test_unusable_standard_output_ends_with_a_message(
+    drivers, case: Path, driver: str, target: str
+):
     words = [*drivers[driver], "case.nml", "-o", "out", *QUICK]
     command = f'exec "$@" {">/dev/full" if target == "full" else ">&-"}'
     done = subprocess.run(

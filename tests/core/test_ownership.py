@@ -127,7 +127,7 @@ def test_result_of_another_command(call: Call, tmp_path: Path, name: str):
 
 
 @pytest.mark.parametrize("name", FOLDERS)
-def test_a_name_that_the_result_needs(call: Call, tmp_path: Path, name: str):
+def test_a_foreign_file_with_a_name_of_the_result(call: Call, tmp_path: Path, name: str):
     needed = {
         "sweep": "results.csv",
         "stribeck": "stribeck.png",
@@ -153,7 +153,7 @@ def test_folder_of_the_input(call: Call, tmp_path: Path, name: str):
 
 
 @pytest.mark.parametrize("name", REPLACING)
-def test_forced_beside_the_input(call: Call, tmp_path: Path, name: str):
+def test_forced_into_the_folder_of_the_input(call: Call, tmp_path: Path, name: str):
     """What has another name stays; the working directory is filled, not replaced."""
     foreign(tmp_path)
     (tmp_path / "my.nml").write_text(FOLDERS[name][0])
@@ -301,7 +301,7 @@ def test_single_files(
 
 
 @pytest.mark.parametrize("suffix", [".npy", ".txt"])
-def test_surface_onto_its_input(call: Call, tmp_path: Path, suffix: str):
+def test_surface_does_not_overwrite_its_input(call: Call, tmp_path: Path, suffix: str):
     heights = np.random.default_rng(1).normal(scale=1e-8, size=(32, 32))
     scan = f"scan{suffix}"
     np.save(scan, heights) if suffix == ".npy" else np.savetxt(scan, heights)
@@ -405,7 +405,7 @@ def test_foreign_states(call: Call, tmp_path: Path, name: str, place: str):
     assert tree(tmp_path) == before
 
 
-def test_both_drivers_say_the_same(call: Call, tmp_path: Path):
+def test_both_drivers_give_the_same_messages(call: Call, tmp_path: Path):
     assert call("run", "-o", "out").returncode == 0
     (tmp_path / "file").write_text("mine")
     foreign(tmp_path / "out")

@@ -123,7 +123,7 @@ def test_movie_keeps_its_pace_and_states_it(moving, tmp_path, monkeypatch, capsy
     assert len(set(titles)) == data.sizes["T"]
 
 
-def test_width_of_a_page_ends_with_it(tmp_path):
+def test_page_width_applies_only_in_its_block(tmp_path):
     with page_width(0.084):
         figure = new_figure(84.0 / 25.4, 2.0)
     path = save(figure, tmp_path / "page.png", DPI)

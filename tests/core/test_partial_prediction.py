@@ -40,7 +40,7 @@ def summary_of(text: str):
     return pyehl.predict(pyehl.Case.from_text(text), tracks=1).summary
 
 
-def test_full_film_is_as_without_a_boundary_film():
+def test_full_film_equals_that_without_a_boundary_film():
     """With a boundary film thinner than every film."""
     without, held = predicted(0.0), predicted(5e-9)
     assert held["contact_load_share"] == held["contact_area_share"] == 0.0
@@ -140,7 +140,7 @@ def curve_of(status: str, **columns: float | None) -> Curve:
 
 
 @pytest.mark.parametrize(("share", "rows"), [(None, 1), (0.0, 3)])
-def test_picture_of_a_curve_whose_contact_is_not_known(share, rows):
+def test_picture_of_a_curve_with_unknown_contact(share, rows):
     """As of two surfaces: no panels without a line."""
     shares = {"contact_load_share": share, "contact_load_share_ehl": share}
     figure = draw_stribeck([curve_of(FULL_FILM, **shares)], "two surfaces")
@@ -154,7 +154,7 @@ def test_picture_of_a_curve_without_friction():
     assert [label for label in labels if label] == ["load, area (dashed)", "minimum film [nm]"]
 
 
-def test_curve_says_why_it_has_no_friction(tmp_path, capsys):
+def test_curve_states_why_it_has_no_friction(tmp_path, capsys):
     case = tmp_path / "case.nml"
     case.write_text(TEXT.format(0.3, 1.3e-7, 0.0) + "&grid points = 65 /\n")
     words = ["stribeck", str(case), "--speed", "0.3", "--jobs", "1", "-o"]
@@ -167,7 +167,7 @@ def test_curve_says_why_it_has_no_friction(tmp_path, capsys):
 HOT = TEXT.format(3.0, "{}", 0.1).replace("&lubricant", "&lubricant temperature_viscosity = 0.04")
 
 
-def test_boundary_film_that_touches_nothing_changes_no_bit_of_friction_with_heat():
+def test_boundary_film_without_contact_changes_no_bit_of_friction_with_heat():
     without = summary_of(HOT.format(0.0).replace("boundary_friction = 0.1", ""))
     with_boundary_film = summary_of(HOT.format(5e-9))
     for name in without:
@@ -290,7 +290,7 @@ def test_no_number_of_contact_outside_the_range(cases, velocity, boundary_film, 
     assert summary["h_min_rough_error_m"] is None
 
 
-def test_no_contact_stays_known_outside_the_range(cases):
+def test_no_contact_is_certain_outside_the_range(cases):
     """Where no body touches within the error of the film: 0."""
     case = pyehl.Case(cases / "table1.nml", TABLE1 | {"surface.rms_height": 1e-8})
     summary = pyehl.predict(case.with_options("contact.mean_velocity=0.15"), tracks=1).summary
@@ -309,7 +309,7 @@ def test_hardness_is_left_out():
     assert "contact.hardness is left out" in left["contact_load_share_error_note"]
 
 
-def test_two_surfaces_have_none_and_say_why():
+def test_two_surfaces_have_no_contact_prediction():
     text = TEXT.format(0.3, 1.3e-7, 0.1)
     second = text[text.index("&surface") :].replace("surface", "second_surface").replace("11", "12")
     summary = summary_of(text + second)

@@ -36,7 +36,7 @@ def test_choice(wanted: str, has_v3: bool, flags: set[str], suffix: str):
         ("x86-64-v3", True, V3_FLAGS - {"fma", "bmi2"}, "missing on this processor: bmi2, fma"),
     ],
 )
-def test_what_cannot_be_had_is_refused(wanted: str, has_v3: bool, flags: set[str], stated: str):
+def test_unavailable_builds_are_refused(wanted: str, has_v3: bool, flags: set[str], stated: str):
     with pytest.raises(InputError, match=stated):
         choose(wanted, has_v3, flags)
 

@@ -84,7 +84,7 @@ def top(name: str) -> str:
     return name.partition(".")[0]
 
 
-def test_arrows_point_one_way(graph: dict[str, set[str]]):
+def test_layers_use_only_lower_layers(graph: dict[str, set[str]]):
     assert len(graph) > 30
     assert {top(name) for name in graph} == set(RANK)
     wrong = [
@@ -96,7 +96,7 @@ def test_arrows_point_one_way(graph: dict[str, set[str]]):
     assert not wrong
 
 
-def test_no_circle(root: Path):
+def test_no_circular_import(root: Path):
     """The modules can be ordered so that each runs only those before it."""
     result = modules(root)
     # `from pyehl.surfaces import x` inside the folder would run its __init__ first
@@ -114,7 +114,7 @@ PUBLIC = {"_repr_html_", "_actions", "_SubParsersAction"}
 
 
 @pytest.mark.parametrize("folder", ["benchmarks", "examples/zhang2019", "tests"])
-def test_who_uses_only_what_is_public(root: Path, folder: str):
+def test_scripts_use_only_public_names(root: Path, folder: str):
     for path in (root / folder).rglob("*.py"):
         text = path.read_text()
         if not PRIVATE.search(text):
@@ -139,7 +139,7 @@ def test_who_uses_only_what_is_public(root: Path, folder: str):
 SHARED = ("commands.arguments", "commands.machine", "commands.watching")
 
 
-def test_nobody_imports_a_command(graph: dict[str, set[str]]):
+def test_no_module_imports_a_command(graph: dict[str, set[str]]):
     """Commands share only their arguments; `cli` names them by text."""
     wrong = [
         f"{name} imports {other}"
@@ -159,7 +159,7 @@ def test_nobody_imports_a_command(graph: dict[str, set[str]]):
         ("matplotlib", {"plots", "prediction"}),
     ],
 )
-def test_who_imports_what(root: Path, what: str, where: set[str]):
+def test_imports_of_each_layer(root: Path, what: str, where: set[str]):
     users = set()
     for name, (_, tree) in modules(root).items():
         for node in ast.walk(tree):

@@ -173,7 +173,7 @@ def test_films_by_formula_are_results(tmp_path, root, load, verdict):
     assert verdict in read(pyehl.report(folder)).text
 
 
-def test_no_result_is_said(tmp_path, root):
+def test_missing_result_is_reported(tmp_path, root):
     with pytest.raises(pyehl.NotConverged):
         pyehl.solve(root / "cases/quick.nml", SMALL, "solver.max_cycles=1", output=tmp_path / "run")
     page = read(pyehl.report(tmp_path / "run", tmp_path / "page.html"))
@@ -182,7 +182,7 @@ def test_no_result_is_said(tmp_path, root):
 
 
 @pytest.mark.long
-def test_broken_film_is_said(tmp_path, root):
+def test_film_breakdown_is_reported(tmp_path, root):
     result = pyehl.predict(
         root / "cases/table1.nml", "surface.rms_height=4e-7", output=tmp_path / "run", plots=False
     )
@@ -193,7 +193,7 @@ def test_broken_film_is_said(tmp_path, root):
     assert "suggested_shortest_wavelength_m" in page.text
 
 
-def test_a_failed_case_of_a_study_is_said(folders, tmp_path):
+def test_a_failed_case_of_a_study_is_reported(folders, tmp_path):
     folder = tmp_path / "sweep"
     shutil.copytree(folders / "sweep", folder)
     rows = (folder / "results.csv").read_text().splitlines()
@@ -203,7 +203,7 @@ def test_a_failed_case_of_a_study_is_said(folders, tmp_path):
     assert "Take with care. 2 of 3 cases have a result. Others: 1 'cycle limit'" in page.text
 
 
-def test_heat_that_the_friction_has_is_no_warning(root):
+def test_heating_included_in_the_friction_is_no_warning(root):
     settings = pyehl.Case(root / "cases/table1.nml").resolve()
     hot = {"kind": "solution", "status": "converged", "flash_temperature_K": 14.3}
     assert "not fed back" in " ".join(limits(settings, hot))
@@ -242,7 +242,7 @@ def test_a_page_for_a_measured_response(tmp_path, root):
         pyehl.report(folder)
 
 
-def test_a_zipped_study_that_is_not_done_is_said(tmp_path, root):
+def test_an_unfinished_zipped_study_is_reported(tmp_path, root):
     vary = {"contact.moes_m": [50.0, 100.0, 200.0], "contact.moes_l": [8.0, 9.0, 10.0]}
     folder = tmp_path / "sweep"
     pyehl.sweep(root / "cases/quick.nml", vary, SMALL, zipped=True, output=folder, jobs=1)
@@ -252,7 +252,7 @@ def test_a_zipped_study_that_is_not_done_is_said(tmp_path, root):
     assert "2 of 2 cases have a result; 1 are not done" in read(pyehl.report(folder)).text
 
 
-def test_where_the_maps_of_a_study_lie_is_left_out(tmp_path, root):
+def test_folders_of_the_maps_of_a_study_are_not_shown(tmp_path, root):
     """In the case, and as values of a key; with characters that HTML and namelists quote."""
     place = tmp_path / "o'brien & co"
     place.mkdir()
@@ -273,7 +273,7 @@ def test_where_the_maps_of_a_study_lie_is_left_out(tmp_path, root):
     assert tmp_path.name not in text
 
 
-def test_where_maps_lie_is_left_out(tmp_path, root):
+def test_folders_of_maps_are_not_shown(tmp_path, root):
     heights = 2e-8 * np.sin(2.0 * np.pi * np.arange(64) / 64.0)[:, np.newaxis] * np.ones(64)
     np.save(tmp_path / "ground.npy", heights)
     pyehl.predict(
@@ -300,7 +300,7 @@ def test_only_its_own_file_is_replaced(folders, tmp_path, capsys):
     assert target.read_text() == "mine"
 
 
-def test_a_run_replaces_the_report_with_its_result(tmp_path, root):
+def test_a_new_run_removes_the_old_report(tmp_path, root):
     """The page belongs to the result: made of it, and gone with it."""
     for _ in range(2):
         pyehl.solve(root / "cases/quick.nml", SMALL, output=tmp_path / "run")
@@ -311,7 +311,7 @@ def test_a_run_replaces_the_report_with_its_result(tmp_path, root):
         pyehl.solve(root / "cases/quick.nml", SMALL, output=tmp_path / "run")
 
 
-def test_what_is_no_result_is_refused(tmp_path):
+def test_folders_without_results_are_refused(tmp_path):
     with pytest.raises(pyehl.InputError, match="no result folder"):
         pyehl.report(tmp_path)
     (tmp_path / "summary.json").write_text('{"kind": "reproduce"}')
@@ -383,7 +383,7 @@ def test_assessment(changed, word, why, kind):
     assert why in result.why
 
 
-def test_limits_that_apply(root):
+def test_limits_of_a_result(root):
     settings = pyehl.Case(root / "cases/table1.nml").resolve()
     reported = " ".join(limits(settings, {"kind": "prediction"}))
     assert "Newtonian" in reported

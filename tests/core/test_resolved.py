@@ -64,7 +64,7 @@ def test_ehl_reads_what_is_written(
     assert written["lubricant"] == Case(tmp_path / "case.nml").resolve()["lubricant"]
 
 
-def test_no_file_in_the_way_is_lost(tmp_path: Path, monkeypatch, capsys):
+def test_no_existing_file_is_overwritten(tmp_path: Path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "case.nml").write_text(SMALL)
     (tmp_path / "other.nml").write_text("&grid points = 65 /\n")

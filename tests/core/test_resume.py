@@ -147,7 +147,7 @@ def test_resumed_march_gives_the_same_bits(drive, unbroken, tmp_path: Path, firs
     assert not (tmp_path / "out.checkpoint").exists()
 
 
-def test_either_driver_goes_on_with_a_fractal_surface(drive, unbroken, tmp_path: Path):
+def test_either_driver_resumes_a_fractal_surface(drive, unbroken, tmp_path: Path):
     shutil.copy(unbroken["fractal"] / "case.nml", tmp_path)
     for driver in ("ehl", "pyehl"):
         stop_after_steps(drive, tmp_path, "pyehl", 20)
@@ -196,9 +196,7 @@ def test_resume_into_another_folder_leaves_the_state(drive, unbroken, tmp_path: 
 
 
 @pytest.mark.parametrize("damage", ["cut", "bit", "empty"])
-def test_damaged_newest_state_gives_way_to_the_older_one(
-    drive, unbroken, tmp_path: Path, damage: str
-):
+def test_the_older_state_replaces_a_damaged_one(drive, unbroken, tmp_path: Path, damage: str):
     shutil.copy(unbroken["wave"] / "case.nml", tmp_path)
     stop_after_steps(drive, tmp_path, "ehl", 30)
     folder = tmp_path / "out.checkpoint"
@@ -241,7 +239,7 @@ def test_frames_are_written_once(drive, unbroken, tmp_path: Path):
 
 
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
-def test_what_cannot_be_resumed_is_reported(drive, tmp_path: Path, driver: str):
+def test_refused_resumptions(drive, tmp_path: Path, driver: str):
     def refused(*words: str) -> str:
         before = sorted(tmp_path.rglob("*"))
         done = drive(driver, "--resume", *words)

@@ -116,7 +116,7 @@ def test_plan_has_the_heights_of_both(height: str, words: str):
     assert re.match(r"[\d.]+ % of the variance of the surface; (less than )?[\d.]+ % of it", share)
 
 
-def test_feature_waits_for_the_roughness():
+def test_feature_enters_after_the_roughness():
     """Its front comes to X = -1.25 two a/u after that of the roughness has passed X = 1.05."""
     text = "&contact slide_to_roll = 0.5 /\n" + WAVE.format("surface", "x_start = -3")
     groups = Case.from_text(text + "&second_surface kind = 'ridge' length = 1 /\n").resolve()
@@ -127,7 +127,7 @@ def test_feature_waits_for_the_roughness():
     assert still["second_surface"]["x_start"] == still["grid"]["x_inlet"]
 
 
-def test_too_long_a_way(heights, tmp_path: Path):
+def test_too_many_periods_for_the_slow_surface(heights, tmp_path: Path):
     """What is refused names the slower surface and the periods that it takes."""
     text = CONTACT.replace(SLIP, "slide_to_roll = 1.99998 ") + FRACTAL.format("surface")
     case = Case.from_text(text + FRACTAL.format("second_surface"))
@@ -280,7 +280,7 @@ def test_prediction_of_either_body_and_of_both(heights, tmp_path: Path, monkeypa
 
 
 @pytest.mark.long
-def test_curve_of_two(tmp_path: Path, monkeypatch, capsys):
+def test_curve_of_two_surfaces(tmp_path: Path, monkeypatch, capsys):
     """Other seeds of both; the film over the composite roughness."""
     monkeypatch.chdir(tmp_path)
     both = CONTACT + FRACTAL.format("surface") + FRACTAL.format("second_surface")
@@ -338,7 +338,7 @@ def test_second_surface_as_a_map(heights, tmp_path: Path, monkeypatch, capsys):
     assert "expected: second_surface.kind" in capsys.readouterr().err
 
 
-def test_film_over_both():
+def test_film_ratio_of_both_surfaces():
     one = Case.from_text(CONTACT + FRACTAL.format("surface"))
     second = Case.from_text(CONTACT + FRACTAL.format("second_surface").replace("5e-9", "1.2e-8"))
     both = Case.from_text(one.text, {f"second_surface.{k}": v for k, v in {

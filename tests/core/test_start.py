@@ -33,7 +33,7 @@ COMMANDS = [
 @pytest.mark.parametrize(
     "commands", [COMMANDS, [(["film", "table1.nml"], HEAVY)]], ids=["in turn", "film"]
 )
-def test_heavy_modules_are_left_alone(cases, tmp_path, commands):
+def test_commands_import_no_heavy_modules(cases, tmp_path, commands):
     for name in ("quick.nml", "table1.nml"):
         shutil.copy(cases / name, tmp_path)
     done = subprocess.run(

@@ -147,7 +147,7 @@ def table() -> list[tuple[str, list[Path]]]:
     return rows
 
 
-def test_no_symbol_stands_twice():
+def test_symbols_are_unique():
     names = [name for name, _ in table()]
     assert len(names) > 250
     assert [name for name in set(names) if names.count(name) > 1] == []

@@ -27,7 +27,7 @@ def rows(text: str) -> list[str]:
 
 
 @pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda path: path.stem)
-def test_chapter_leads_to_the_code(chapter):
+def test_chapter_names_the_code(chapter):
     text = chapter.read_text(encoding="utf-8")
     if chapter.stem in INDICES:
         return

@@ -235,7 +235,7 @@ FAILING = """&contact moes_m = 20, moes_l = 2 /
         pytest.param(10_000, marks=pytest.mark.slow),
     ],
 )
-def test_many_threads_find_what_one_finds(cases: int):
+def test_many_threads_give_the_results_of_one(cases: int):
     """Eight threads, each with its own solver; with static lengths 20 of 10 000 are wrong."""
     amplitudes = ("0.1", "0.12345", "0.0123456789", "0.1111111111111")
     texts = [pyehl.Case.from_text(FAILING.format(amplitude)).text for amplitude in amplitudes]

@@ -45,7 +45,7 @@ def test_whole_at_every_instant(words: list[str], tmp_path: Path):
     assert reads > 1000
 
 
-def test_two_at_once(words: list[str], tmp_path: Path):
+def test_two_runs_into_one_folder(words: list[str], tmp_path: Path):
     """One is refused where they overlap; results get there one after the other, nothing is left."""
     for _ in range(40):
         pair = [subprocess.Popen(words) for _ in range(2)]

@@ -40,7 +40,7 @@ def test_anisotropy_factor():
     assert float(amplitude.anisotropy_factor(math.inf)) == pytest.approx(math.e)
 
 
-def test_conventions_agree_where_they_should():
+def test_conventions_agree_for_a_transverse_wave():
     k = 2 * np.pi / 1e-4
     wave = {c: amplitude.component_wavelength(k, 0.0, c) for c in amplitude.CONVENTIONS}
     # a wave with its crests across the motion

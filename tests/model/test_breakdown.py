@@ -31,7 +31,7 @@ def ends(deformed, a, film):
     return below_zero([tile], [deformed], (a, a), film)
 
 
-def test_share_of_one_pixel_is_its_chord():
+def test_share_of_one_pixel_follows_from_its_chord():
     """A pixel on the centre line is inside for 2 a of every tile length, one at y for less."""
     deformed = np.zeros((200, 300))
     deformed[40, 0] = 1.2e-7
@@ -75,7 +75,7 @@ def wave(length, amplitude):
     return amplitude * np.repeat(np.cos(2 * np.pi * x / length)[:, None], 256, axis=1)
 
 
-def test_cut_off_that_carries_is_found():
+def test_cut_off_with_a_full_film_is_found():
     """Two waves: the long one fits into the film, the short one does not."""
     short = LENGTH / 32
     tile = Topography(wave(LENGTH / 4, 0.5) + wave(short, 1.0), (LENGTH, LENGTH))
@@ -91,7 +91,7 @@ def test_cut_off_that_carries_is_found():
     assert suggested_wavelength(*limits, lambda shortest: False) is None
 
 
-def test_threshold_that_carries_is_found():
+def test_threshold_with_a_full_film_is_found():
     away = np.random.default_rng(2).random((50, 50))
     away[3, 4], away[5, 6], away[7, 8] = 1000.0, 300.0, 40.0
 
@@ -124,7 +124,7 @@ def scan(tmp_path, settings):
     return settings
 
 
-def test_film_breakdown_says_where_and_what_would_carry(scan):
+def test_film_breakdown_names_place_and_cut_off(scan):
     pytest.importorskip("SurfaceTopography")
     ended = predict(scan)
     assert ended.friction.status == "film breakdown"
@@ -177,7 +177,7 @@ def test_suggested_cut_off_has_a_known_error(settings, monkeypatch):
     assert advise(model, ended, flat(1e-7)).wavelengths == (None,)
 
 
-def test_rough_surfaces_are_not_told_to_remove_spikes(settings):
+def test_rough_surfaces_get_no_threshold_of_spikes(settings):
     """Where the roughness itself is too high there is nothing to take for a spike."""
     settings["surface"]["rms_height"] = 1e-6
     ended = predict(settings)
@@ -218,7 +218,7 @@ def test_track_is_the_line_that_passes_the_centre(settings):
 
 
 @pytest.mark.parametrize("kind", ["sharp", "gaussian"])
-def test_filter_halves_or_cuts(kind):
+def test_gaussian_filter_halves_and_sharp_filter_cuts(kind):
     tile = Topography(wave(LENGTH / 8, 1.0) + wave(LENGTH / 64, 1.0), (LENGTH, LENGTH))
     at = LENGTH / 16
     left, right = (

@@ -76,7 +76,7 @@ def test_sheet_from_moes_numbers_and_smooth():
     assert "made from M and L" in report(values)
 
 
-def test_columns_of_a_sheet_keep_apart_at_a_very_low_load():
+def test_columns_of_the_sheet_do_not_touch_at_a_low_load():
     """M = 0.05: H_c is five figures long before its point."""
     values = film_formulas.sheet(pyehl.Case(contact={"moes_m": 0.05, "moes_l": 5.0}).resolve())
     line = next(text for text in report(values).splitlines() if "Brewe" in text)

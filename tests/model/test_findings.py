@@ -69,7 +69,7 @@ def test_a_tilted_array_is_reported():
 
 @pytest.mark.parametrize("hurst", [0.2, 0.5, 0.8, 1.0])
 @pytest.mark.parametrize("seed", range(4))
-def test_roughness_of_every_kind_is_left_alone(hurst, seed):
+def test_roughness_of_every_kind_has_no_findings(hurst, seed):
     """Isotropic, with a lay along or across, plateaus with valleys, periodic waves."""
     z = rough(seed, hurst)
     lay = 0.9 * np.repeat(z[:, :1], N, axis=1) + 0.1 * z

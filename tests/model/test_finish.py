@@ -40,12 +40,12 @@ def test_ra_and_rq_give_the_rms_height(group):
         ("finish='grinded'", "'ground'"),
     ],
 )
-def test_what_does_not_go_together_is_refused(keys, message):
+def test_contradicting_keys_are_refused(keys, message):
     with pytest.raises(InputError, match=message):
         resolved(keys)
 
 
-def test_a_finish_gives_what_is_not_given():
+def test_a_finish_sets_the_missing_keys():
     ground = resolved("finish='ground'")
     assert ground["kind"] == "fractal"
     assert ground["rms_height"] == pytest.approx(0.4e-6 * math.sqrt(math.pi / 2.0))
@@ -74,7 +74,7 @@ def test_cells_of_a_finish_are_those_of_its_fractal_surface():
 
 
 @pytest.mark.parametrize("ratio", [0.1, 1.0, 5.0])
-def test_the_lay_is_that_of_the_ratio(ratio):
+def test_lay_has_the_given_ratio(ratio):
     """Rms slopes along and across have the ratio of the correlation lengths."""
     tile = fractal(512, 1e-3, 1e-3, rms_height=1e-7, hurst=1.0, rolloff_wavenumber=1e5,
                    lay_ratio=ratio, modulus="gaussian", seed=3)  # fmt: skip
@@ -83,7 +83,7 @@ def test_the_lay_is_that_of_the_ratio(ratio):
     assert tile.rms_height == pytest.approx(1e-7, rel=1e-9)
 
 
-def test_a_surface_without_lay_keeps_its_bits():
+def test_a_lay_ratio_of_1_changes_no_bit():
     kept = fractal(32, 1e-4, 1e-4, rms_height=1e-8, hurst=0.8)
     assert np.array_equal(
         kept.heights, fractal(32, 1e-4, 1e-4, rms_height=1e-8, hurst=0.8, lay_ratio=1.0).heights

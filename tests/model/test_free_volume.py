@@ -82,7 +82,7 @@ def test_coefficients_follow(temperature: float):
     assert reciprocal_isoviscous(oil) == pytest.approx(1.0 / inverse, rel=1e-5)
 
 
-def test_two_references_are_one_liquid():
+def test_reference_temperature_does_not_matter():
     """The volume by another T_R, with K0 unchanged and a_V over the volume there."""
     other = {
         "lubricant.tait_temperature": T_R - 25.0,
@@ -100,11 +100,11 @@ def test_two_references_are_one_liquid():
     )
 
 
-def test_a_solid_oil_is_refused():
+def test_an_oil_without_free_volume_is_refused():
     """No volume is free above 1.15 GPa: the default contact comes there, a light one does not."""
     thick = {**OIL, "lubricant.doolittle_r0": 0.8, "lubricant.doolittle_b": 1.0}
     assert not np.isfinite(of_case(thick, {"contact.load": 1.0}).log_viscosity_ratio(5e9))
-    with pytest.raises(InputError, match="no viscosity that rises with pressure"):
+    with pytest.raises(InputError, match="no viscosity that increases with pressure"):
         Case.from_text("", thick)
 
 
@@ -175,7 +175,7 @@ def test_film_friction_and_prediction_obey_the_law(table: Path):
     assert second[2] == pytest.approx(first[2], rel=1e-3)
 
 
-def test_the_volume_counts_in_the_film():
+def test_compression_thins_the_film():
     """A film of a liquid that is pressed together is thinner by its density."""
     solved, formula = {}, {}
     for law in ("tait", "incompressible"):
@@ -203,4 +203,4 @@ def test_both_programs_take_the_law(drivers: dict[str, list[str]], tmp_path: Pat
     assert result[0] == result[1]
     # the last is that of pyehl, which states what holds of the lubricant
     assert "doolittle viscosity at 60.0 degC" in summary["lubricant_note"]
-    assert "BEYOND in pressure" in summary["lubricant_note"]
+    assert "the pressure is above it" in summary["lubricant_note"]

@@ -206,7 +206,7 @@ def test_eyring_friction_of_table_1():
         (["grid.points=129"], "the Newtonian shear stress of"),
     ],
 )
-def test_only_a_ratio_is_said_in_words(options, words):
+def test_a_missing_coefficient_is_explained(options, words):
     with Solver(Case.from_text("", options)) as solver:
         assert solver.run()
         s = solver.summary
@@ -248,7 +248,7 @@ def test_absolute_friction_of_a_uniform_film():
     assert "shear_law" in alone["mu_note"]
 
 
-def test_prediction_and_film_sheet_say_it():
+def test_prediction_and_film_sheet_state_the_inlet_heating():
     """Film, coefficients and the heat of both, in the summary and in print."""
     # the film of the paper's model is that of the formula, to which the reduction is exact
     surface = ["surface.kind=fractal", "surface.pixels=64", "psd.smooth=hertz"]

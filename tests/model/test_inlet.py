@@ -78,7 +78,7 @@ def test_flattening_by_one_cell(zone: Zone, width: float):
         assert result[m, i, j] == pytest.approx(expected, rel=2e-2 if i == j else 1e-4)
 
 
-def test_what_is_convected_is_exact_for_polynomials_on_a_wave():
+def test_convection_is_exact_for_polynomials_on_a_wave():
     """Of third degree inside, of second at the last node, of first behind the start."""
     n, h, slip = 12, 0.1, np.array([0.0, 3.0])
     x = h * np.arange(n)
@@ -91,14 +91,14 @@ def test_what_is_convected_is_exact_for_polynomials_on_a_wave():
 
 
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 1.5])
-def test_halved_spacing(zone: Zone, monkeypatch: pytest.MonkeyPatch, ratio: float):
+def test_halved_spacing_changes_little(zone: Zone, monkeypatch: pytest.MonkeyPatch, ratio: float):
     q = np.array([2.0, 8.0, 20.0, 50.0])
     coarse = at_inlet(zone, q, 0.5 * q, ratio)
     monkeypatch.setattr("pyehl.theory.inlet.SPACING", 0.5 * SPACING)
     np.testing.assert_allclose(at_inlet(zone, q, 0.5 * q, ratio), coarse, atol=0.012)
 
 
-def test_long_waves_do_not_pass_and_short_ones_as_by_transport(zone: Zone):
+def test_inlet_passes_only_short_waves(zone: Zone):
     long = at_inlet(zone, np.array([0.5]), np.array([0.0]), 1.0)
     assert abs(long[0]) < 0.05
     q = np.array([100.0, 128.0])
@@ -132,7 +132,7 @@ def test_the_transfer_goes_on_beyond_the_fitted_slip(zone: Zone, edge: float):
     np.testing.assert_allclose(inlet_transfer(zone, qx, qy, MOES, far) / at, expected, rtol=0.02)
 
 
-def test_a_law_that_does_not_thin_changes_nothing(zone: Zone):
+def test_a_law_without_thinning_changes_nothing(zone: Zone):
     qx, qy = np.array([3.0, 10.0, 30.0]), np.array([0.0, 10.0, 5.0])
     same = inlet_transfer(replace(zone, newtonian=zone), qx, qy, MOES, 1.1)
     np.testing.assert_allclose(same, inlet_transfer(zone, qx, qy, MOES, 1.1), rtol=1e-12)

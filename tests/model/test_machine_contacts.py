@@ -224,7 +224,7 @@ HIGH = {
 }
 BAD = {
     "balls do not fit": (BALLS, {"ball_bearing.balls": 16}, "do not fit round", "at most 15"),
-    "no rings": (BALLS, {"ball_bearing.ball_diameter": 0.02}, "leave no rings", "below 0.016"),
+    "no rings": (BALLS, {"ball_bearing.ball_diameter": 0.02}, "leave no room", "below 0.016"),
     "no pitch": (ROLLERS, {"roller_bearing.pitch_diameter": 0.0}, "not given", "bore"),
     "no load": (BALLS, {"ball_bearing.radial_load": 0.0}, "no load", "radial_load"),
     "no speed": (BALLS, {"ball_bearing.outer_speed": 3000.0}, "do not turn", "inner_speed"),
@@ -389,7 +389,7 @@ def test_crown_of_a_nanometre_is_a_line():
     assert tables[0].equals(tables[1])
 
 
-def test_formulas_that_contradict_each_other():
+def test_contradicting_film_formulas_are_noted():
     """A minimum film above the central one, far beyond the ranges of both formulas, is noted."""
     options = {"lubricant.viscosity": 0.004, "ball_bearing.inner_speed": 100.0}
     for load, crossed in ((3000.0, True), (10.0, False)):
@@ -414,7 +414,7 @@ def test_pressure_above_the_static_limit_is_noted():
         ("contact.shape", "line", "contact.shape follows from &ball_bearing"),
     ],
 )
-def test_refused_at_what_causes_it(root: Path, key: str, value: object, message: str):
+def test_refusals_name_the_key_that_causes_them(root: Path, key: str, value: object, message: str):
     with pytest.raises(pyehl.InputError, match=message):
         pyehl.bearing(root / "cases" / "bearing_6206.nml", {key: value})
 

@@ -69,7 +69,7 @@ def one_transfer(spectrum, zone, moes, ratio, **options) -> Transfer:
     ["1.8e-4", pytest.param("1.9e-4", marks=pytest.mark.long)],
     ids=["common period", "none"],
 )
-def test_exchange_of_the_two(length):
+def test_exchange_of_the_two_bodies(length):
     """Body 1 with one roughness and body 2 with the other, named in either order: the same bits."""
     second = SECOND.replace("0.00018", length)
     texts = [SI, SI.replace("load", "rough_surface = 2 load")]
@@ -96,7 +96,7 @@ def test_smooth_second_surface_changes_nothing():
 
 
 @pytest.mark.parametrize("ratio", [pytest.param(1.05, marks=pytest.mark.long), 0.8])
-def test_hardly_rough_second_surface(contact, ratio):
+def test_vanishing_second_roughness(contact, ratio):
     """The points of a pair are others than those of one surface."""
     single, _, _ = run(alone(contact, rough(3), ratio), 0)
     both, _, _ = run(pair(contact, (rough(3), rough(4, 1e-15)), (ratio, 2.0 - ratio)), 0)
@@ -104,7 +104,7 @@ def test_hardly_rough_second_surface(contact, ratio):
     assert both.mu_ratio == pytest.approx(single.mu_ratio, rel=5e-4)
 
 
-def test_without_sliding_they_are_one_surface(contact):
+def test_two_tiles_without_sliding_are_one(contact):
     one, other = rough(3), rough(4)
     added = Topography(one.heights + other.heights, one.size)
     single, over, bands = run(alone(contact, added, 1.0), 3)
@@ -162,7 +162,7 @@ def test_cross_terms_of_second_order(contact):
     assert second.of(*of[::-1])[0] == pytest.approx(gain, rel=1e-12)
 
 
-def test_both_leak_as_the_amplitude_of_both(contact):
+def test_leak_of_two_surfaces_follows_their_total_amplitude(contact):
     """Two halves of the power leak as the whole of it does."""
     zone, moes = zone_of(contact, POINT, OIL), (POINT.moes_m, POINT.moes_l)
     heights = rough(3, 4e-8).heights / POINT.film_scale
@@ -198,7 +198,7 @@ def test_positions():
 
 
 @pytest.mark.long
-def test_what_is_left_undecided(contact):
+def test_error_of_the_number_of_positions(contact):
     result, _, _ = run(pair(contact, (rough(3), rough(4, length=3.7e-4)), (1.05, 0.95)), 0)
     more = pair(contact, (rough(3), rough(4, length=3.7e-4)), (1.05, 0.95))
     finer, _, _ = run(replace(more, options=ModelOptions(positions=1600)), 0)
@@ -263,7 +263,7 @@ def breaking(load: float = 120.0) -> str:
 
 
 @pytest.mark.long
-def test_what_would_carry():
+def test_suggested_cut_off_of_two_surfaces():
     """The one that breaks the film must go, the other one alone does not help."""
     result = pyehl.predict(pyehl.Case.from_text(breaking()))
     assert result.summary["status"] == "film breakdown"
@@ -311,7 +311,7 @@ def test_advice_names_the_surfaces_that_it_cuts(contact):
     assert "; surface." not in ways
 
 
-def test_share_of_a_breakdown_where_both_move_as_one():
+def test_share_of_a_breakdown_without_sliding():
     text = (
         "&contact load = 120.0 slide_to_roll = 0.0 mean_velocity = 0.1 /\n"
         + FRACTAL.format("surface", 2e-4, 3e-9, 3)
@@ -330,7 +330,7 @@ def test_no_tile_of_too_many_pixels(monkeypatch):
     assert merged(one, other, 0.0) is None
 
 
-def test_bands_hold_the_waves_of_both(contact):
+def test_bands_contain_the_waves_of_both(contact):
     tiles = wave(1.1, 2e-3), wave(0.225, 1e-3)
     result, _, bands = run(pair(contact, tiles, (1.1, 0.9)), 0)
     assert len(bands) == 2
@@ -399,7 +399,7 @@ def test_folder(tmp_path, monkeypatch, capsys):
     assert not list((tmp_path / "out").glob("second_*"))
 
 
-def test_model_of_the_paper_knows_one():
+def test_model_of_the_paper_takes_one_surface():
     text = SI + FIRST.format("surface") + SECOND.format("second_surface")
     keys = {"psd.reduction": "amplitude", "psd.smooth": "hertz"}
     with pytest.raises(pyehl.InputError, match="two rough surfaces: the model of the paper"):

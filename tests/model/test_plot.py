@@ -80,7 +80,7 @@ def test_pressure_and_film_in_si(fields, scales):
     assert np.interp(0.0, *film_line.T) == pytest.approx(0.0243 * scales.film * 1e6, rel=1e-3)
 
 
-def test_a_tile_of_nanometres_is_drawn_as_far_as_it_can_be_seen():
+def test_a_very_fine_tile_is_drawn_in_part():
     """Of 20 000 x 20 000 pixels in the contact a picture shows a part, and states so."""
     tile = Topography(np.random.default_rng(1).normal(0.0, 1e-9, (64, 48)), (6.4e-7, 4.8e-7))
     ax = surface.roughness(tile, tile.heights, 1e-4, name="(a) undeformed,")
@@ -124,7 +124,7 @@ def test_interferogram(fields, scales, si):
     assert bar.get_ylabel() == ("h [µm]" if si else "H = hR/a²")
 
 
-def test_thin_and_thick_films_have_fringes_of_their_own(scales):
+def test_fringe_spacing_follows_the_film(scales):
     for central in (0.02, 5.0):
         red, green = contact.fringe_spacings(central, scales)
         assert red == pytest.approx(0.9 * central)
@@ -205,7 +205,7 @@ def test_slender_maps_are_readable(sides):
     assert all(clear(ax) for ax in figure.axes[:3])
 
 
-def test_only_a_failed_run_has_words_above_its_panels():
+def test_only_a_failed_run_has_its_status_in_the_title():
     for status, words in (("converged", ""), ("negative film", "negative film")):
         about = {"moes_m": 412.9, "moes_l": 10.73, "hertz_pressure_Pa": 0.997e9, "status": status}
         figure = panels.panels(2, (1.0, 0.8), panels.headline(about))
@@ -327,7 +327,7 @@ def test_headline():
     assert "FILM" in panels.headline(about | {"status": "negative film"})
 
 
-def test_heights_and_what_is_left_of_each_wave(settings):
+def test_heights_and_amplitude_ratio_of_each_wave(settings):
     """The model of the paper has a real ratio: what stays and what takes pressure make one."""
     result = predict(settings)
     rough, deformed = result.surface, result.friction.response.deformed
@@ -473,7 +473,7 @@ def test_subcommand_on_a_prediction_of_two_surfaces(tmp_path):
     assert drawn >= {"roughness.png", "second_roughness.png", "second_surface_spectrum.png"}
 
 
-def test_octaves_that_are_not_known():
+def test_octaves_without_a_contribution():
     ax = surface.octaves([(1e-4, 5e-5, np.nan)])
     assert [text.get_text() for text in ax.texts] == ["not known"]
     ax.figure.canvas.draw()
@@ -499,7 +499,7 @@ def test_subcommand_on_a_run(settings, fields, tmp_path):
     assert run_subcommand(tmp_path, None, "--units", "hertz") == 0
 
 
-def test_subcommand_without_fields_says_so(settings, tmp_path, capsys):
+def test_subcommand_reports_missing_fields(settings, tmp_path, capsys):
     (tmp_path / "summary.json").write_text(json.dumps(SUMMARY))
     (tmp_path / "case.nml").write_text(namelist.text_of(settings))
     assert run_subcommand(tmp_path, tmp_path / "new") == 2

@@ -20,7 +20,7 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
 
-def test_summary_says_what_was_done(settings):
+def test_summary_describes_the_prediction(settings):
     result = predict(settings)
     summary = json.loads(json.dumps(result.summary, allow_nan=False))
     assert summary["status"] == "predicted"

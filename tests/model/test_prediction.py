@@ -81,7 +81,7 @@ def test_no_roughness_no_change(contact, table_1):
     assert sum(band.increase for band in bands) == pytest.approx(friction.mu_ratio - 1.0, abs=1e-12)
 
 
-def test_a_wave_in_the_contact_is_its_transfer():
+def test_a_tile_of_one_wave_follows_the_transfer():
     """Tiles of a single wave against cos and sin, driven and free, the surface 20 % faster."""
     n, side, turns = 48, 2.0, 3
     x = np.arange(n) * side / n
@@ -103,7 +103,7 @@ def test_a_wave_in_the_contact_is_its_transfer():
     assert waves.free[0][:, 5, 1] == pytest.approx(-1.2 * k * free, abs=2e-3 * 0.2 * k)
 
 
-def test_real_ratio_that_moves_with_the_roughness(table_1, settings):
+def test_real_amplitude_ratio_moves_with_the_roughness(table_1, settings):
     """Without slip, lag and a solved contact the model is that of the paper."""
     film = 0.2333e-6
     tile = table_1(seed=4)
@@ -116,7 +116,7 @@ def test_real_ratio_that_moves_with_the_roughness(table_1, settings):
     assert ours == pytest.approx(paper, rel=0.02)
 
 
-def test_slip_turns_the_free_wave(contact, table_1):
+def test_slip_shifts_the_free_wave(contact, table_1):
     """One per cent of slip, forward or backward, causes the increase of a Table 1 surface."""
     tile = table_1(seed=21)
     ratio = {u: run(passage(contact, tile, u), tracks=1)[0].mu_ratio for u in (0.99, 1.0, 1.01)}
@@ -371,7 +371,7 @@ def test_film_of_second_order(contact, table_1):
     assert np.isnan(points.sheared(change, points.smooth_film()))
 
 
-def test_film_that_a_loss_leaves():
+def test_film_after_a_loss():
     """A parabola, and beyond a loss of 0.6 the exponential that goes on from it; and back."""
     loss = np.linspace(-1.0, 3.0, 401)
     left = film_left(loss)
@@ -464,7 +464,7 @@ def test_free_waves_are_thicker_where_the_pressure_is_lower(contact, table_1):
     assert 1.02 < thickening < 1.06
 
 
-def test_small_waves_leak_as_such():
+def test_leak_depends_on_the_square_of_the_amplitude():
     """The leak depends on the amplitude by its square."""
     case = pyehl.Case.from_text("&contact moes_m = 200.0 moes_l = 10.0 /").resolve()
     point, oil = OperatingPoint.from_settings(case), Lubricant.from_settings(case)

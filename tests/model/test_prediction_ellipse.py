@@ -141,7 +141,7 @@ def rows_of(path: Path) -> list[dict[str, float]]:
         return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(stream)]
 
 
-def test_waves_as_measured(root: Path):
+def test_response_of_ellipses_fits_measured_waves(root: Path):
     """The response of the circle with the same inlet fits as well as on circles; others do not."""
     rows = rows_of(root / "docs" / "evidence" / "ellipse" / "response.csv")
     groups: dict[tuple[float, ...], list[dict[str, float]]] = {}
@@ -208,7 +208,7 @@ def test_off_the_centre_line(root: Path):
             )
 
 
-def test_what_is_refused():
+def test_refused_predictions():
     ellipse_of = {"contact.moes_m": 300.0, "contact.moes_l": 10.0, "contact.radius_ratio": WIDE}
     for more, text in (
         ({"contact.angle": 30.0}, "contact.angle = 30: the response of an elliptical contact"),
@@ -267,7 +267,7 @@ def test_table_is_what_is_predicted(compare, name):
     assert abs(result - run["mu_ratio"]) <= error
 
 
-def test_readme_says_what_the_table_says(compare):
+def test_readme_states_the_numbers_of_the_table(compare):
     """Counts, largest deviations and coverage, of the predictions from before."""
     text = plain(compare.HERE / "README.md").replace("−", "-")
     table = compare.read("table.csv")
@@ -361,7 +361,7 @@ def test_static_ridges(root: Path):
         assert abs(row["predicted_T"] - row["T"]) < (0.07 if row["ellipticity"] < 0.5 else 0.05)
 
 
-def test_wide_contacts_were_predicted_before(root: Path, script, monkeypatch):
+def test_predictions_of_wide_contacts_are_reproduced(root: Path, script, monkeypatch):
     """The committed predictions are those of this build, and their errors cover the simulations."""
     monkeypatch.syspath_prepend(str(root / "docs" / "evidence" / "ellipse"))
     monkeypatch.delitem(sys.modules, "cases", raising=False)

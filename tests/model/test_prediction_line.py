@@ -89,7 +89,7 @@ def test_transverse_waves_in_pure_rolling():
     assert kept == pytest.approx(table, rel=0.11)
 
 
-def test_a_strip_and_two_beside_each_other_are_one():
+def test_a_strip_repeated_along_the_line_changes_nothing():
     """So are a tile and the same further along the line."""
     case = strip()
     b = contact_of(case.resolve()).hertz_radius

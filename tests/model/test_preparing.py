@@ -58,7 +58,7 @@ def test_form_is_taken_off_exactly(what, left):
     assert np.abs(levelled(sum(forms), what)).max() > 1e-8 or left == 0
 
 
-def test_form_is_that_of_the_points_that_count():
+def test_form_is_fitted_to_valid_points():
     x, y = axes((40, 31))
     z = 1e-6 * x - 3e-6 * y
     holed = z.copy()
@@ -88,7 +88,7 @@ def test_holes_in_harmonic_heights_are_filled_exactly(monkeypatch, many):
     assert np.isnan(holed[10, 8])
 
 
-def test_filling_makes_no_peaks_and_knows_the_pixels():
+def test_filling_has_no_peaks_and_uses_the_pixel_size():
     z = rough()
     z[20:26, 20:24] = np.nan
     z[0:2, 0:2] = np.nan
@@ -112,14 +112,14 @@ def test_more_than_a_tenth_missing_is_refused():
         prepare(instrument(z))
 
 
-def test_a_part_with_nothing_in_it_is_refused():
+def test_a_part_without_heights_is_refused():
     z = rough((50, 40))
     z[:10] = np.nan
     with pytest.raises(ValueError, match=r"400 of 400 heights are missing \(100"):
         prepare(instrument(z), Options(crop=(0.0, 10e-6, 0.0, 0.0)))
 
 
-def test_refusing_to_fill():
+def test_fill_none_refuses_missing_points():
     z = rough()
     z[3, 4] = np.nan
     with pytest.raises(ValueError, match=r"1 of 3072 heights are missing, the first at row 3, col"):
@@ -200,7 +200,7 @@ def test_mirrored_tile():
         assert tile[i, j] == z[unmirrored(i, j, z.shape)]
 
 
-def test_mirroring_lets_the_spectrum_fall():
+def test_mirroring_removes_the_waves_of_a_jump():
     """A jump makes waves of all lengths; a ramp of 1 um without mirror images, and with them."""
     x, _ = axes((64, 64))
     above = []
@@ -261,7 +261,7 @@ def test_turned_lay(angle):
     assert turned[inside] == pytest.approx(np.cos(2 * np.pi * along / wavelength)[inside], abs=2e-3)
 
 
-def test_sign_and_place():
+def test_sign_and_origin_of_a_map():
     z = rough()
     made = prepare(instrument(z), Options(sign=-1, detrend="centre"))
     assert made.prepared == pytest.approx(-(z - z.mean()), abs=1e-20)
@@ -287,7 +287,7 @@ def test_record_is_json_and_lines():
     assert "the tilt of a scan is that of the stage" in "\n".join(made.record.report())
 
 
-def test_units_that_cannot_be_meant():
+def test_implausible_units_are_refused():
     with pytest.raises(ValueError, match=r"rms height .* are the heights in m"):
         prepare(instrument(rough() * 1e6, is_array=True))
 
@@ -329,7 +329,7 @@ def test_texture_aspect_ratio_of_a_gaussian_surface():
     assert texture_aspect_ratio(gaussian_filter(noise, 5.0), PIXEL) > 0.75
 
 
-def test_extent_leaves_out_what_is_missing():
+def test_extent_ignores_missing_points():
     z = np.outer(np.arange(10.0), np.ones(8))
     z[4, 4] = np.nan
     spread = extent(z, (2.0, 1.0))

@@ -105,7 +105,7 @@ def test_one_column_asks_for_its_length_and_unit(tmp_path, z):
         (two(np.full(40, np.nan), "{:.3f} {:.3f}", head="x [um]  z [um]\n"), "height 1 .* missing"),
     ],
 )
-def test_what_is_no_profile_is_refused(tmp_path, text, message):
+def test_bad_profiles_are_refused(tmp_path, text, message):
     path = tmp_path / "p.txt"
     path.write_text(text)
     with pytest.raises(InputError, match=message):
@@ -125,7 +125,7 @@ def made(hurst, rolloff, seed, n=4096, rms=3e-7):
 
 
 @pytest.mark.parametrize(("hurst", "rolloff"), [(0.5, 0.0), (0.8, 6e4), (0.3, 1e5), (0.9, 0.0)])
-def test_bands_hold_the_truth(hurst, rolloff):
+def test_bands_contain_the_true_values(hurst, rolloff):
     """Of 20 profiles the bands of 95 % hold nearly all."""
     held = {"hurst": 0, "rolloff": 0, "rms": 0}
     for seed in range(20):
@@ -143,7 +143,7 @@ def test_bands_hold_the_truth(hurst, rolloff):
 
 
 @pytest.mark.long
-def test_an_isotropic_surface_is_told_by_a_profile():
+def test_an_isotropic_surface_follows_from_its_profile():
     """The profile of an isotropic surface falls with an exponent lower by one than the surface."""
     result = []
     for seed in range(6):
@@ -217,7 +217,7 @@ def test_a_map_is_not_read_whole_as_a_profile(tmp_path, monkeypatch, name):
     assert not is_profile(tmp_path / name)
 
 
-def test_a_profile_in_place_of_a_map_says_how(tmp_path, z, capsys):
+def test_a_profile_in_place_of_a_map_names_the_key(tmp_path, z, capsys):
     path = tmp_path / "p.prf"
     path.write_text(mahr(z))
     case = pyehl.Case.from_text(f"&surface kind = 'map' file = '{path}' /")

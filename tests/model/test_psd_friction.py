@@ -125,7 +125,7 @@ def test_automatic_positions_are_enough(table_1):
         assert missed < max(few.position_error, 1e-4)
 
 
-def test_grid_of_the_map_does_not_matter():
+def test_pixel_size_of_the_map_does_not_matter():
     """A coarse map of a long wave is interpolated until it resolves the contact."""
     coarse = surfaces.resampled(surfaces.harmonic(5e-8, LENGTH, LENGTH, (6, 6)), (12, 10))
     fine = surfaces.harmonic(5e-8, LENGTH, LENGTH, (256, 256))

@@ -20,7 +20,7 @@ FILM = 0.2333e-6
 LENGTH = 8.29e-4
 
 
-def test_film_breakdown_is_said(wave):
+def test_film_breakdown_has_its_status(wave):
     result = predict_friction(wave(3e-7, 1e-6), POINT, ROELANDS, FILM)
     assert result.status == "film breakdown"
     assert math.isnan(result.mu_ratio)
@@ -37,7 +37,7 @@ def test_cavitation_is_counted(table_1):
     assert 0.0 < result.cavitated_friction < 1e-6
 
 
-def test_overflow_is_said(table_1):
+def test_viscosity_overflow_is_reported(table_1):
     oil = Lubricant(viscosity_law="barus", pressure_viscosity=6e-7)
     point = OperatingPoint(pressure_viscosity=6e-7)
     result = predict_friction(table_1(pixels=64), point, oil, FILM)
@@ -45,7 +45,7 @@ def test_overflow_is_said(table_1):
     assert math.isnan(result.mu_ratio)
 
 
-def test_lost_load_is_said():
+def test_roughness_pressure_beyond_the_load():
     n, side = 64, 20 * POINT.hertz_radius
     x = np.arange(n) / n
     hill = np.outer(np.cos(2 * np.pi * x), np.cos(2 * np.pi * x)) * 2e-4

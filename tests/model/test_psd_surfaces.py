@@ -66,7 +66,7 @@ def test_twenty_surfaces_as_the_paper_reads(twenty):
     assert ratios.mean() > twenty(BARUS).mean() > twenty(ROELANDS).mean()
 
 
-def test_below_equation_16():
+def test_prediction_of_the_paper_is_below_equation_16():
     """The film wave lags the roughness, which the model leaves out: it under-predicts."""
     point = OperatingPoint.from_moes(1000.0, 10.0)
     film = 0.024335 * point.film_scale

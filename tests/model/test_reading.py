@@ -198,7 +198,7 @@ def test_lists_of_points(tmp_path, header):
         ((slice(None), 1, 7.0), "all points of the list of x, y and z have the same y"),
     ],
 )
-def test_lists_that_are_no_grid(tmp_path, change, message):
+def test_lists_of_points_off_a_grid(tmp_path, change, message):
     points = np.array([(i, j, 0.1 * i * j) for i in range(5) for j in range(6)], dtype=float)
     points[change[:2]] = change[2]
     np.savetxt(tmp_path / "list.txt", points)
@@ -339,7 +339,7 @@ def test_bytes_are_no_table(tmp_path):
 
 
 @pytest.mark.parametrize("text", ["Height map\n1;2;3\nend\n", "Height map\nnothing\n\n"])
-def test_words_without_a_table(tmp_path, text):
+def test_text_without_a_table(tmp_path, text):
     """The first line that is not numbers is named, and what to do."""
     (tmp_path / "words.csv").write_text(text)
     message = r"words\.csv:1: 'Height map' is not numbers(.|\n)*height_unit, surface\.length_x"

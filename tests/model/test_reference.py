@@ -8,7 +8,7 @@ import reference
 from scipy.integrate import dblquad, quad
 
 
-def test_load_of_the_hertz_pressure():
+def test_hertz_pressure_integrates_to_the_load():
     load, _ = quad(lambda r: 2 * math.pi * r * float(reference.hertz_pressure(r, 0.0)), 0.0, 1.0)
     assert load == pytest.approx(2 * math.pi / 3, rel=1e-9)
 

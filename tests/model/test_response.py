@@ -61,7 +61,7 @@ def test_ridges_along_the_motion_do_not_move(ratio: float):
     assert t == pytest.approx(response(zone(), none, qy, 1.0), abs=1e-12)
 
 
-def test_stiff_lubricant_carries_the_wave_at_the_mean_velocity():
+def test_wave_of_a_stiff_lubricant_moves_at_the_mean_velocity():
     stiff = zone(compressibility=0.0, conductance=1e-20)
     qx, qy = np.array([3.0, 12.0, 50.0]), np.array([2.0, 0.0, 30.0])
     for ratio in (0.9, 1.0, 1.1):
@@ -70,7 +70,7 @@ def test_stiff_lubricant_carries_the_wave_at_the_mean_velocity():
         assert t == pytest.approx(t[:, 1:2] * turn, abs=1e-12)
 
 
-def test_compressible_lubricant_leaves_a_part_with_the_roughness():
+def test_compressibility_keeps_part_of_the_wave_on_the_roughness():
     qx, none = np.array([40.0]), np.zeros(1)
     (driven, _), _, _ = transport(zone(conductance=1e-20), qx, none, 1.3, STATIONS)
     c = stiffness(qx) * 0.025 * 0.04
@@ -163,7 +163,7 @@ def test_inlet_without_slip_or_leak_passes_the_wave():
 
 
 @pytest.mark.parametrize("ratio", [0.8, 1.0, 1.2])
-def test_inlet_follows_the_roughness_until_the_leak_ends(ratio: float):
+def test_wave_follows_the_roughness_until_the_leak_ends(ratio: float):
     """The leak falls from much more than the slip to nothing at X = e: |B| = 1, free from e on."""
     x = np.linspace(-1.5, 1.0, 2001)
     same, end = np.ones_like(x), -0.95

@@ -32,7 +32,7 @@ def test_closed_forms():
     assert carreau == pytest.approx(3e7 * (1 + (30 / 7) ** 2) ** -0.27, rel=1e-14)
 
 
-def test_the_limit_is_reached():
+def test_stress_reaches_the_limit():
     p = np.array([0.0, 1e8, 2e9])
     stress = shear_stress(np.full(3, 1e15), p, LAWS[2])
     assert stress == pytest.approx(0.05 * p, rel=1e-14)

@@ -169,7 +169,7 @@ def test_pressure_far_from_the_contact(states):
     )
 
 
-def test_what_a_study_may_be(states):
+def test_limits_of_a_study_on_the_page(states):
     states(
         "docs/howto/sweep.md",
         f"With more than {plan.MAX_CHECKED} cases `--plan` checks some of them",
@@ -180,7 +180,7 @@ def test_what_a_study_may_be(states):
     assert plan.PATIENCE == 5.0
 
 
-def test_what_the_page_may_take(root: Path, states):
+def test_allowed_latencies_on_the_page(root: Path, states):
     source = (root / "tests/app/latency.py").read_text(encoding="utf-8")
     allowed = re.findall(r"(\d+): (0\.\d+)", source.partition("ALLOWED = ")[2].partition("\n")[0])
     coarse, fine = (f"{1e3 * float(time):.0f} ms on {n} × {n}" for n, time in allowed)

@@ -12,7 +12,7 @@ def evidence(script):
     return script("docs/evidence/speed/make.py")
 
 
-def test_skipped_work_changes_nothing_beyond_what_is_allowed(evidence):
+def test_skipped_work_stays_within_its_tolerance(evidence):
     for row in evidence.table("skips"):
         assert float(row["difference"]) <= float(row["allowed"]), row["skipped"]
 

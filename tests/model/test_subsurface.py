@@ -107,7 +107,9 @@ def test_line_contact() -> None:
 
 
 @pytest.mark.parametrize(("friction", "on_surface"), [(0.2, False), (0.3, True), (0.4, True)])
-def test_friction_brings_the_shear_to_the_surface(friction: float, *, on_surface: bool) -> None:
+def test_high_friction_moves_the_maximum_shear_to_the_surface(
+    friction: float, *, on_surface: bool
+) -> None:
     """From a coefficient of about 0.3 on, under a line; then it is the friction there or more."""
     half_space, pressure = line()
     places = np.concatenate([[0.0], np.geomspace(0.01, 1.5, 30)])

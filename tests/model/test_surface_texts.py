@@ -60,7 +60,7 @@ WORDS = ["***", "*", "---", "-", "?", "void", "No Data", "no data", "N/A", "#N/A
 
 
 @pytest.mark.parametrize("word", WORDS)
-def test_a_word_in_place_of_a_point(tmp_path: Path, word: str):
+def test_a_word_in_place_of_a_height(tmp_path: Path, word: str):
     """One point is missing, no line of the map."""
     for name, separator in (("tab.txt", "\t"), ("semicolon.csv", ";"), ("blank.txt", " ")):
         path = write(tmp_path / name, [*GWYDDION, *lines(separator, word)], end="\r\n")
@@ -69,7 +69,7 @@ def test_a_word_in_place_of_a_point(tmp_path: Path, word: str):
 
 
 @pytest.mark.parametrize("word", ["NaN", "nan", "inf", "-inf", ""])
-def test_numbers_that_are_none(tmp_path: Path, word: str):
+def test_words_for_missing_points(tmp_path: Path, word: str):
     check(write(tmp_path / "map.txt", [*GWYDDION, *lines("\t", word)]), MISSING)
 
 
@@ -83,7 +83,7 @@ def test_a_line_of_missing_points(tmp_path: Path):
         check(path, [(i, at) for i in range(NX)])
 
 
-def test_another_word_is_refused(tmp_path: Path):
+def test_an_unknown_word_in_a_table_is_refused(tmp_path: Path):
     """With its line and column; a heading within the table is as well."""
     path = write(tmp_path / "map.txt", [*GWYDDION, *lines("\t", "three")])
     with pytest.raises(InputError, match=r"map\.txt:8:\d+: 'three' is no number"):
@@ -105,7 +105,7 @@ def test_encodings(tmp_path: Path, encoding: str):
 
 
 @pytest.mark.parametrize("mark", ["utf-8", "utf-8-sig", "utf-16"])
-def test_a_mark_of_the_encoding_turns_no_axes(tmp_path: Path, mark: str):
+def test_a_byte_order_mark_does_not_swap_the_axes(tmp_path: Path, mark: str):
     """An array has one x per line, with and without it, and all of its lines."""
     path = write(tmp_path / "map.csv", lines(","), mark, "\r\n")
     scan = read_scan(path, *SIZE[::-1], height_unit="um")
@@ -240,7 +240,7 @@ def test_axes_and_lists_of_arrays(tmp_path: Path):
     assert for_solver({"surface": group}).heights is None
 
 
-def test_what_a_header_says_is_not_dropped(tmp_path: Path):
+def test_unused_header_lines_are_reported(tmp_path: Path):
     """A factor that is not applied, a unit that is none of length."""
     header = ["Pixel size: 1.5 um", "Unit: um"]
     note = check(write(tmp_path / "map.csv", [*header, "Z scale: 0.1", *lines(";")]))
@@ -273,7 +273,7 @@ def test_columns_with_units_of_their_own(tmp_path: Path, header: list[str]):
     check(write(tmp_path / "list.csv", [*header, *points(1e-3)]))
 
 
-def test_places_in_another_unit_than_the_heights(tmp_path: Path):
+def test_positions_in_another_unit_than_the_heights(tmp_path: Path):
     """Named by no header: it is asked for, and 0.03 mm are no 0.03 um."""
     path = write(tmp_path / "list.csv", points(1e-3))
     with pytest.raises(InputError, match=r"steps of 0.0015, .* surface\.lateral_unit"):
@@ -318,7 +318,7 @@ def with_axes(corner: str | None, down: bool = False) -> list[str]:
 
 
 @pytest.mark.parametrize("corner", ["", "0", "y\\x", "nan", "µm", None])
-def test_axes_are_no_heights(tmp_path: Path, corner: str | None):
+def test_axes_are_not_taken_as_heights(tmp_path: Path, corner: str | None):
     for down in (False, True):
         path = write(tmp_path / "table.csv", with_axes(corner, down))
         note = check(path, height_unit="um")
@@ -360,14 +360,14 @@ def test_marks_of_missing_points(tmp_path: Path, mark: str):
     assert "marks of missing points" in note
 
 
-def test_a_height_that_is_there_too_often(tmp_path: Path):
+def test_a_height_that_occurs_too_often(tmp_path: Path):
     """It may be a mark; it is kept, and stated."""
     z = np.random.default_rng(2).normal(size=(40, 30))
     marked = np.where(np.random.default_rng(3).uniform(size=z.shape) < 0.02, 0.0, z)
     np.save(tmp_path / "map.npy", 1e-8 * marked)
     scan = read_scan(tmp_path / "map.npy", 1e-4, 1e-4)
     count = int((marked == 0.0).sum())
-    assert f"{count} heights are exactly 0, far more than are of any other value" in scan.note
+    assert f"{count} heights are exactly 0, far more often than any other value" in scan.note
     assert np.isfinite(scan.heights).all()
     np.save(tmp_path / "map.npy", 1e-8 * np.minimum(z, 1.5))
     count = int((z >= 1.5).sum())
@@ -377,7 +377,7 @@ def test_a_height_that_is_there_too_often(tmp_path: Path):
     assert read_scan(tmp_path / "map.npy", 1e-4, 1e-4).note == ""
 
 
-def test_steep_steps_are_said(tmp_path: Path):
+def test_steep_steps_are_reported(tmp_path: Path):
     z = 1e-8 * np.random.default_rng(2).normal(size=(40, 30))
     z[4, 5] = 1e-4
     np.save(tmp_path / "map.npy", z)
@@ -456,7 +456,7 @@ def test_profiles_are_named_as_such(tmp_path: Path):
             read_scan(write(tmp_path / name, text, "latin-1", "\r\n"))
 
 
-def test_lines_that_are_gone_are_said(tmp_path: Path):
+def test_missing_lines_are_reported(tmp_path: Path):
     """Where a header has lengths alone, and in a list; an axis with a step too many is refused."""
     scan = read_scan(write(tmp_path / "map.txt", [*GWYDDION, *lines()[:-2]]))
     assert "pixels of 1.5e-06 x 1.75e-06 m by the lengths of the header" in scan.note

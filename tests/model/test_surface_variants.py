@@ -225,7 +225,7 @@ KINDS = [(Z + 1j, "complex numbers"), (Z > 0.0, "truth values"), (Z.astype("U9")
 
 
 @pytest.mark.parametrize(("array", "kind"), KINDS)
-def test_arrays_that_are_no_heights(tmp_path: Path, array: np.ndarray, kind: str):
+def test_arrays_without_real_numbers(tmp_path: Path, array: np.ndarray, kind: str):
     np.save(tmp_path / "scan.npy", array)
     with pytest.raises(InputError, match=f"heights must be real numbers, not {kind}"):
         read_scan(tmp_path / "scan.npy", *SIZE)
@@ -233,7 +233,7 @@ def test_arrays_that_are_no_heights(tmp_path: Path, array: np.ndarray, kind: str
 
 @pytest.mark.parametrize(("dtype", "mark"), [("i2", -32768), ("u2", 65535), ("f4", -9999.0),
                                              ("f8", np.inf), ("i4", 2147483647)])  # fmt: skip
-def test_marks_in_arrays(tmp_path: Path, dtype: str, mark: float):
+def test_marks_of_missing_points_in_arrays(tmp_path: Path, dtype: str, mark: float):
     """Missing points of whole numbers; those of an array with an offset are heights."""
     raw = np.rint(1e9 * Z).astype(float) + (300.0 if dtype == "u2" else 0.0)
     raw[np.isnan(GAPPY)] = mark
@@ -293,7 +293,7 @@ def test_missing_points_of_masked_arrays():
 
 
 @pytest.mark.parametrize(("array", "kind"), KINDS)
-def test_arrays_in_memory_that_are_no_heights(array: np.ndarray, kind: str):
+def test_arrays_in_memory_without_real_numbers(array: np.ndarray, kind: str):
     for call in (lambda: in_memory(array, GROUP), lambda: Tile(array, SIZE)):
         with pytest.raises(InputError, match=f"heights must be real numbers, not {kind}"):
             call()

@@ -28,7 +28,7 @@ def known(evidence):
     }
 
 
-def test_film_that_a_loss_leaves(evidence, page):
+def test_film_after_a_loss(evidence, page):
     """`film_left` beside the means of the simulated film."""
     rows = evidence.read("film.csv")
     assert {row["place"] for row in rows} == set(evidence.RINGS)

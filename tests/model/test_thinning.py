@@ -191,7 +191,7 @@ def test_reference_values(root):
         assert result.across[0] == pytest.approx(across, rel=1e-5)
 
 
-def test_six_points_through_the_film():
+def test_error_of_six_points_across_the_film():
     """What they leave where a gradient outweighs the sliding, as docs/theory/thinning.md states."""
     case = "carreau", 0.5, 2.0, (30.0, 0.1)
     change = np.array(by_quadrature(*case, points=6)) / by_quadrature(*case, points=200) - 1.0
@@ -199,7 +199,7 @@ def test_six_points_through_the_film():
 
 
 @pytest.mark.parametrize("law", ["eyring", "carreau"])
-def test_what_sliding_and_gradient_do(law):
+def test_flow_factors_by_sliding_and_gradient(law):
     """As docs/theory/thinning.md states."""
     sliding = np.geomspace(1e-2, 1e6, 60)
     for x, y in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (10.0, 0.0), (20.0, 20.0)):
@@ -258,7 +258,7 @@ def test_waves_that_a_grid_leaves_out():
     assert result.mu_ratio == pytest.approx(1.0, abs=0.02)
 
 
-def test_start_without_the_waves_that_the_grid_does_not_carry():
+def test_predicted_start_omits_unresolved_waves():
     """They would be too much for a linear response; without them the start is that of the rest."""
     x, y = np.linspace(-2.5, 1.5, 65), np.linspace(0.0, 2.0, 33)
     low, high = (

@@ -140,7 +140,7 @@ def test_shift_of_a_wave_is_analytic(s):
     assert moved == pytest.approx(expected, abs=1e-12)
 
 
-def test_nyquist_component_stands():
+def test_nyquist_component_does_not_move():
     n, length = 8, 1.0
     z = np.outer((-1.0) ** np.arange(n), np.ones(n))
     for fraction in (0.25, 0.5):

@@ -55,7 +55,7 @@ def test_skips_change_nothing(tmp_path: Path, capsys, monkeypatch):
     assert [row["difference"] for row in rows[4:]] == [0.0, 0.0]
 
 
-def test_skips_that_change_something_are_told(monkeypatch, capsys):
+def test_skips_that_change_results_are_reported(monkeypatch, capsys):
     row = dict.fromkeys((name for name, _ in skips.COLUMNS), 0.0)
     row |= {"problem": "s", "skipped": "w", "quantity": "q", "same": False}
     monkeypatch.setattr(skips, "PROBLEMS", {"predict": lambda points: [row]})
@@ -83,7 +83,7 @@ def test_skips_that_change_something_are_told(monkeypatch, capsys):
         ("faults", "arguments are required: -o"),
     ],
 )
-def test_words_that_a_script_does_not_take(
+def test_scripts_refuse_unknown_arguments(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys, words: str, stated: str
 ):
     monkeypatch.chdir(tmp_path)
@@ -126,7 +126,7 @@ def test_smooth_cases_beside_the_circle(monkeypatch):
     assert rows[2]["ratio"] == pytest.approx(per_node, rel=1e-12)
 
 
-def test_steps_beside_the_plain_scene(monkeypatch):
+def test_steps_of_two_benchmark_problems(monkeypatch):
     wave = "&surface kind = 'harmonic' amplitude_over_film = 0.2 velocity_ratio = 1.01 /\n"
     ball = "&contact moes_m = 50.0 moes_l = 5.0 /\n"
     plain = step.Problem("wave", "half", ball + wave)
@@ -140,7 +140,7 @@ def test_steps_beside_the_plain_scene(monkeypatch):
     assert len(rows[1]["seconds_of_steps"]) == 3
 
 
-def test_scenes_of_steps_are_cases():
+def test_problems_of_the_step_benchmark_are_cases():
     places = {(problem.name, problem.domain) for problem in step.CASES}
     for problem in step.CASES:
         assert pyehl.Case.from_text(problem.text).resolve()["surface"]["kind"] != "smooth"
@@ -189,12 +189,12 @@ def test_interrupted_stress_keeps_what_is_done(root: Path, tmp_path: Path):
     assert not (folder / "stress.json").exists()
 
 
-def test_interrupted_throughput_is_none(monkeypatch: pytest.MonkeyPatch):
+def test_interrupted_sweep_has_no_throughput(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(sweep, "perform", lambda *_, **__: Outcome({}, interrupted=True))
     assert sweep.main(["--problems", "film", "--threads", "1"]) == 130
 
 
-def test_wrong_results_are_seen():
+def test_wrong_results_are_detected():
     row = {"family": "wave", "outcome": "converged", "mu_ratio": 1.5, "mu_ratio_error": 0.03}
     near, far = dict(row), dict(row)
     stress_checks.judge(near, {"status": "converged", "mu_ratio": 1.51})
@@ -224,7 +224,7 @@ def test_the_record_is_of_the_cases_that_are_drawn(script):
     assert [float(row["moes_m"]) for row in rows] == [case.moes_m for case in drawn]
 
 
-def test_cases_with_a_shear_law_are_the_same_scenes():
+def test_a_shear_law_changes_no_other_key_of_the_campaign():
     plain = stress_cases.draw(60, 1)
     for law in ("eyring", "carreau"):
         thinning = stress_cases.draw(60, 1, law=law)
@@ -238,7 +238,7 @@ def test_cases_with_a_shear_law_are_the_same_scenes():
             assert resolved["lubricant"]["flow"] == "consistent"
 
 
-def test_cases_with_a_boundary_film_are_the_same_scenes():
+def test_a_boundary_film_changes_no_other_key_of_the_campaign():
     thinning = stress_cases.draw(60, 1, law="eyring")
     layered = stress_cases.draw(60, 1, law="eyring", layer=True)
     new = {"lubricant.boundary_film", "lubricant.boundary_friction"}
@@ -254,14 +254,14 @@ def test_cases_with_a_boundary_film_are_the_same_scenes():
     ("other", "error", "wrong"),
     [(0.32, 0.03, False), (0.34, 0.03, True), (0.3009, 0.0, False), (0.32, None, False)],
 )
-def test_wrong_load_shares_are_seen(other: float, error: float | None, *, wrong: bool):
+def test_wrong_load_shares_are_detected(other: float, error: float | None, *, wrong: bool):
     row = {"contact_load_share": 0.3, "contact_load_share_error": error, "wrong": False}
     stress_checks.judge_share(row, "share_finer", {"contact_load_share": other})
     assert row["wrong"] is wrong
     assert row["share_finer"] == other
 
 
-def test_fields_that_break_a_condition_are_seen(tmp_path: Path):
+def test_fields_that_violate_a_condition_are_detected(tmp_path: Path):
     values = {"contact.load": 20.0, "contact.mean_velocity": 0.1, "grid.points": 65}
     values["lubricant.boundary_film"] = 1e-7
     pyehl.solve(pyehl.Case.from_text("", values), output=tmp_path / "c")
@@ -473,7 +473,7 @@ def test_predictions_at_a_boundary_film_beside_solutions(tmp_path: Path, capsys)
     assert again == mixed.draw(4, 1, (65,))[:2]
 
 
-def test_numbers_that_do_not_belong_together_are_told():
+def test_inconsistent_results_are_reported():
     good = {"mu": 0.06, "mu_smooth": 0.05, "mu_ratio": 1.2, "mu_note": "", "contact_load_share": 0}
     assert mixed.contradictions(good) == []
     assert mixed.contradictions(good | {"mu_ratio": 1.3}) == ["mu = mu_smooth mu_ratio"]

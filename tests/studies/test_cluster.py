@@ -18,7 +18,7 @@ from pyehl import InputError
 from pyehl.studies import pool
 
 
-def test_without_dask_it_is_said_what_to_install(monkeypatch: pytest.MonkeyPatch):
+def test_missing_dask_names_the_package_to_install(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match=r"pyehl\[cluster\]"):
         next(pool.cluster_rows([], "tcp://127.0.0.1:1"))
@@ -72,7 +72,7 @@ def workers(tmp_path: Path) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]
 
 
 @pytest.mark.slow
-def test_a_killed_worker_takes_nothing_with_it(
+def test_a_killed_worker_loses_no_result(
     workers: tuple[str, list[subprocess.Popen[bytes]]], cases: Path, tmp_path: Path
 ):
     address, result = workers

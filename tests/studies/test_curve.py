@@ -262,7 +262,7 @@ def test_pattern_of_a_map_of_one_wave_is_that_wave(tmp_path: Path):
         (["not solved", "not solved", "not solved"], "no point has a result"),
     ],
 )
-def test_where_full_film_ends(statuses: list[str], states: str):
+def test_end_of_the_full_film(statuses: list[str], states: str):
     assert states in full_film_ends("u", [1.0, 2.0, 3.0], statuses)
 
 
@@ -287,7 +287,7 @@ def test_curves_that_are_refused(cases: Path, tmp_path: Path, words: list[str], 
     assert not (tmp_path / "out").exists()
 
 
-def test_ends_of_a_curve_say_why(cases: Path, tmp_path: Path):
+def test_ends_of_a_curve_state_the_reason(cases: Path, tmp_path: Path):
     """A load that no grid solves, reported in words; a ratio larger than any that was compared."""
     words = ("--set", "surface.pixels=64", "--set", "grid.points=65", "-o")
     reported, complaint = run(
@@ -326,7 +326,7 @@ def test_a_point_without_a_smooth_solution_is_not_solved(cases: Path, tmp_path: 
     assert (tmp_path / "out" / "stribeck.png").is_file()
 
 
-def test_nothing_solved_is_no_full_film(cases: Path, tmp_path: Path):
+def test_a_curve_without_results_states_no_full_film(cases: Path, tmp_path: Path):
     """Neither words nor pictures speak of a film that no point has."""
     words = ("--set", "surface.kind=smooth", "--set", "grid.points=65", "--speed", "0.003,0.005")
     reported, complaint = run(

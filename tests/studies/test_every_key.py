@@ -215,7 +215,7 @@ def test_every_key_has_a_value():
 
 
 @pytest.mark.parametrize("key", END)
-def test_a_roller_is_refused_by_name_where_it_is_not_obeyed(key: str):
+def test_commands_without_rollers_refuse_them(key: str):
     """Rather than solved as a point: prediction, `fit-lubricant` and the app."""
     roller = {
         "contact.shape": "roller",
@@ -241,7 +241,7 @@ def test_a_layer_of_oil_is_refused_beside_roughness():
 
 
 @pytest.mark.parametrize("key", LINE)
-def test_a_line_is_refused_by_name_where_it_is_not_obeyed(key: str):
+def test_commands_without_line_contacts_refuse_them(key: str):
     """Rather than solved as a point: `fit-lubricant` and the app."""
     case = pyehl.Case.from_text("", {"contact.shape": "line"} | LINE[key] | ROUGH | POINTS)
     for asked in (

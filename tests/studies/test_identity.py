@@ -72,7 +72,7 @@ def test_a_study_of_another_version_is_refused(
     assert refused.splitlines()[1:-1] == [f"  pyehl version: there {here}, here 9.9.9"]
 
 
-def test_comments_are_no_other_study_and_values_are(mapped: tuple[Path, list[str]]):
+def test_changed_values_make_another_study_but_comments_do_not(mapped: tuple[Path, list[str]]):
     folder, words = mapped
     path = folder / "in" / "case.nml"
     path.write_text(f"! the contact of 2019\n{path.read_text()}")

@@ -60,7 +60,7 @@ def test_killed_anywhere_it_has_all_rows_before(tmp_path: Path):
 
 
 @pytest.mark.parametrize("damage", [b"all of my thesis\n" * 300, None])
-def test_what_is_no_journal_is_refused_and_left_alone(tmp_path: Path, damage: bytes | None):
+def test_foreign_journals_are_refused_and_unchanged(tmp_path: Path, damage: bytes | None):
     """A text, or a database of another program, of the same name."""
     path = tmp_path / NAME
     if damage is None:
@@ -88,7 +88,7 @@ def test_another_study_is_refused_with_the_difference(tmp_path: Path):
     assert rows_of(tmp_path) == {}
 
 
-def test_differences_that_are_many_are_counted(tmp_path: Path):
+def test_many_differences_are_counted(tmp_path: Path):
     """A study of another command differs in every key."""
     with Journal(tmp_path, {f"key{k}": 1 for k in range(30)}):
         pass
@@ -102,7 +102,7 @@ def test_differences_that_are_many_are_counted(tmp_path: Path):
         load(tmp_path)
 
 
-def test_difference_of_the_same_is_nothing():
+def test_equal_studies_have_no_difference():
     assert difference(STUDY, dict(STUDY)) == []
 
 
@@ -117,7 +117,7 @@ def test_two_processes_do_not_write_one_journal(tmp_path: Path):
     with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as other:
         assert other.stdout is not None
         assert other.stdout.readline() == b"begun\n"
-        with pytest.raises(InputError, match=f"process {other.pid} on .* works on this study"):
+        with pytest.raises(InputError, match=f"process {other.pid} on .* is running this study"):
             Journal(tmp_path, STUDY)
         assert read_header(tmp_path) == STUDY
         other.kill()
@@ -153,7 +153,9 @@ def test_first_starts_at_once_lose_nothing(tmp_path: Path):
 
             result = list(pool.map(start, range(starts)))
             words = {text for text in result if isinstance(text, str)}
-            assert all(re.fullmatch(f"{folder}: .*process.* works on this study", w) for w in words)
+            assert all(
+                re.fullmatch(f"{folder}: .*process.* is running this study", w) for w in words
+            )
             refused += len(words)
             lost += sorted({k for k in result if isinstance(k, int)} - set(rows_of(folder)))
             assert {p.name for p in folder.iterdir()} <= set(FILES)
@@ -161,7 +163,7 @@ def test_first_starts_at_once_lose_nothing(tmp_path: Path):
     assert refused
 
 
-def test_without_room_no_row_is_taken_for_kept(tmp_path: Path):
+def test_a_row_that_is_not_written_is_not_counted(tmp_path: Path):
     limits = resource.getrlimit(resource.RLIMIT_FSIZE)
     with Journal(tmp_path, STUDY) as journal:
         # no file may grow beyond a part of the row

@@ -40,7 +40,7 @@ def test_a_failing_case_does_not_stop_the_rest():
     assert [rows[n]["status"] == FAILED for n in range(4)] == [True, False, True, False]
 
 
-def test_a_fault_of_the_program_keeps_where_it_was(monkeypatch: pytest.MonkeyPatch):
+def test_a_fault_of_the_program_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch):
     """The journal has the lines of the source; the table the message alone."""
 
     def broken(task: Task) -> dict[str, object]:
@@ -129,7 +129,7 @@ def test_long_tasks_first_and_sharing_tasks_together():
     assert sorted(left) == sorted({*range(9)} - {other.number, same.number})
 
 
-def test_short_tasks_go_together_and_alone_after_a_death():
+def test_short_tasks_share_a_worker_until_it_dies():
     waiting = pool.Queue([Task(n, "", "film", seconds=0.03) for n in range(9)])
     some = waiting.take("")
     assert [task.number for task in some] == [0, 1, 2, 3]
@@ -184,7 +184,7 @@ def unbroken(cases: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.long
-def test_ctrl_c_keeps_everything(cases: Path, tmp_path: Path, unbroken: Path):
+def test_ctrl_c_keeps_all_finished_rows(cases: Path, tmp_path: Path, unbroken: Path):
     folder = tmp_path / "out"
     process = begin(folder, cases / "quick.nml")
     wait_for_rows(folder, 3)

@@ -129,7 +129,7 @@ def test_a_map_is_read_once(tmp_path: Path, monkeypatch):
     assert len(reads) == 3
 
 
-def test_brief_predictions_have_no_advice(cases: Path):
+def test_brief_predictions_suggest_no_cut_off(cases: Path):
     case = pyehl.Case(cases / "table1.nml", *CASES["breakdown"])
     brief = predict(case.resolve(), case.text, brief=True)
     assert brief.advice is None

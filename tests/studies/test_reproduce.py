@@ -220,7 +220,7 @@ def test_waves_and_surfaces_on_coarse_grids(tmp_path: Path, monkeypatch: pytest.
     assert result["table 2"].line().startswith("nothing to judge: ")
 
 
-def test_a_failure_that_a_run_explains():
+def test_a_failure_with_a_known_finding():
     check = Check("x", 2.0, 1.0, 0.5, "why", "there", finding="Damping")
     reported = Result([check])
     assert "not reproduced: Damping" in check.verdict
@@ -231,7 +231,7 @@ def test_a_failure_that_a_run_explains():
     assert bare.line().startswith("FAIL")
 
 
-def test_what_has_no_number_to_judge_is_no_pass():
+def test_a_check_without_a_number_does_not_pass():
     """Neither green in the report nor counted among the pieces that are within tolerances."""
     free = Check("x", 2.0, 1.0, None, "of another surface", "there")
     for checks in ((), (free,)):
@@ -257,7 +257,7 @@ def test_command(tmp_path: Path, capsys: Any):
         main(["--quick", "--full", "-o", str(folder)])
 
 
-def test_levels_differ_as_they_say():
+def test_levels_of_the_reproduction():
     assert len(conditions.CURVES) * len(conditions.RATIOS) >= 60
     assert FULL.surfaces == 20
     assert FULL.meshes == (257, 513, 1025)

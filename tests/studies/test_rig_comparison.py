@@ -38,7 +38,7 @@ def rig(path: Path, factor: float, *, temperature: float = 40.0, steps: int = 1)
     return path
 
 
-def test_films_beside_a_study(
+def test_measured_films_and_a_study(
     study: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Films measured 5 % thinner; a step at another temperature is left out."""
@@ -50,7 +50,7 @@ def test_films_beside_a_study(
     assert "lubricant.temperature = 100 degC, in the case 40 degC" in reported
 
 
-def test_what_cannot_be_compared(
+def test_refused_comparisons(
     study: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     warm = rig(tmp_path / "warm.txt", 1.0, temperature=80.0)

@@ -58,7 +58,7 @@ def solved(case: Path) -> np.ndarray:
     return films
 
 
-def test_alpha_is_in_its_interval(case: Path, solved: np.ndarray, tmp_path: Path) -> None:
+def test_fitted_alpha_is_in_its_interval(case: Path, solved: np.ndarray, tmp_path: Path) -> None:
     """In about 95 % of 40 noisy records; the interval is as wide as by linear statistics."""
     random = np.random.default_rng(3)
     inside, widths = 0, []
@@ -166,7 +166,7 @@ def test_stribeck_beside_a_rig(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert not (tmp_path / "no").exists()
 
 
-def test_what_cannot_be_fitted(
+def test_refused_fits(
     case: Path, solved: np.ndarray, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = str(films(tmp_path / "films.txt", solved[np.newaxis]))

@@ -78,7 +78,7 @@ def test_netcdf_has_what_was_varied_as_dimensions(done: tuple[Path, str]):
         assert str(chosen.status.values) == "converged"
 
 
-def test_the_plan_and_the_end_are_told(done: tuple[Path, str]):
+def test_plan_and_end_are_reported(done: tuple[Path, str]):
     reported = done[1]
     assert "8 cases (solve): 4 contact.moes_m x 2 contact.moes_l" in reported
     assert "by estimate, 2 worker processes of one thread each" in reported
@@ -121,7 +121,9 @@ def test_another_study_in_the_same_folder_is_refused(done: tuple[Path, str], cas
         (["--vary", "contact.moes_m=1:9:1001", "--vary", "contact.moes_l=1:9:1000"], "can have"),
     ],
 )
-def test_one_bad_case_and_nothing_runs(cases: Path, tmp_path: Path, words: list[str], states: str):
+def test_one_bad_case_prevents_the_study(
+    cases: Path, tmp_path: Path, words: list[str], states: str
+):
     _, refused = sweep(tmp_path / "out", str(cases / "quick.nml"), *words, expect=2)
     assert states in refused
     assert not (tmp_path / "out").exists()
@@ -226,14 +228,14 @@ def test_a_message_for_each_case_without_a_result(cases: Path, tmp_path: Path):
     assert data.status.values.tolist() == ["cycle limit", "converged"]
 
 
-def test_a_case_that_fails_says_so_in_words(cases: Path, tmp_path: Path):
+def test_a_failed_case_has_a_message(cases: Path, tmp_path: Path):
     """Without the name of the class of its error."""
     words = ("--run", "predict", "--vary", "contact.mean_velocity=0.002")
     _, complaint = sweep(tmp_path / "out", str(cases / "table1.nml"), *words, expect=1)
     assert "failed: the smooth contact under the prediction did not converge" in complaint
 
 
-def test_a_film_that_breaks_down_is_an_answer(cases: Path, tmp_path: Path):
+def test_film_breakdown_counts_as_a_result(cases: Path, tmp_path: Path):
     """As on a curve: the study is finished, and the table has of which case there is no ratio."""
     words = ("--run", "predict", "--set", "surface.pixels=64", "--vary")
     words += ("surface.rms_height=5e-8,8e-7", "--jobs", "1")
@@ -290,7 +292,7 @@ def test_a_plan_of_a_million_cases(cases: Path, tmp_path: Path):
     assert "case 1000 of 1000000 (contact.load=100.0, contact.mean_velocity=-1.0)" in refused
 
 
-def test_a_spread_has_all_values_and_the_ends(cases: Path):
+def test_a_sample_has_all_values_and_the_ends(cases: Path):
     axes = [parse_axis("contact.load=1:30"), parse_axis("contact.radius=1:9:900")]
     study = make(str(cases / "quick.nml"), [*axes, parse_axis("surface.seed=1:7")])
     points = [study.point(number) for number in study.spread(500)]
@@ -313,7 +315,7 @@ def test_more_cases_than_fit_into_memory_are_refused(
     assert not (tmp_path / "out").exists()
 
 
-def test_failed_cases_are_told_how_to_retry(tmp_path: Path):
+def test_failed_cases_name_the_retry_option(tmp_path: Path):
     outcome = Outcome({0: {"status": "failed"}, 1: {"status": "converged"}})
     assert "failed     1: the same command with --retry runs them again" in report(
         outcome, tmp_path, 1

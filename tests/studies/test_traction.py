@@ -46,7 +46,7 @@ def columns(folder: Path) -> dict[str, np.ndarray]:
     return {name: np.array([float(row[name] or "nan") for row in rows]) for name in names}
 
 
-def test_rise_plateau_and_fall(tmp_path: Path):
+def test_traction_curve_has_three_regions(tmp_path: Path):
     """In proportion to slip at first, then hardly with it, then less by the heat."""
     (tmp_path / "ball.nml").write_text(BALL)
     (tmp_path / "measured.csv").write_text(f"{SLIP},mu\n0.1,0.033\n0.3,0.033\n")
