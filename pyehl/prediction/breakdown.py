@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the film of rough surfaces ends, and the cut-off with which there is a full film.
+"""Place of the film breakdown on rough surfaces, and a cut-off with which the film is full.
 
-With a measured surface some pixel nearly always touches. This is reported with its place, its
-height and the fraction of the contact, and the film is never clipped. A cut-off wavelength or a
-threshold of spikes is suggested with which the film is full, and a cut-off with which mu_r/mu_s is
-in the range of the model where it is not.
+On a measured surface the film nearly always breaks down at some pixel. Its place, its height and
+the fraction of the contact without a film are reported, and the film is never clipped. A cut-off
+wavelength or a threshold of spikes with which the film is full is suggested; if mu_r/mu_s is
+outside the range of the model, a cut-off with which it is inside.
 """
 
 import math
@@ -25,15 +25,15 @@ from pyehl.types import Array, Indices
 
 Sustained = Callable[[Array, Array], Array]
 """Deformed roughness that the smooth film sustains [m] at x (m,) and y (n,) [m] from the centre of
-the contact, (m, n): where it is higher the film ends."""
+the contact, (m, n): where the roughness is higher there is no film."""
 
 PLACES = 64
-"""Places along a row at which the smooth film is taken: 1/32 a apart, where its slope makes a
-difference far below the error of the film."""
+"""Positions along a row at which the smooth film is evaluated: 1/32 a apart, where its slope causes
+a difference far below the error of the film."""
 
 
 def sustained_by(model: Model) -> Sustained:
-    """Deformed roughness at which the film of a model ends."""
+    """Deformed roughness at which the film of a model breaks down."""
     ends = FILM_ENDS if model.options.reduction == "response" else 1.0
     a, film_unit = model.operating.hertz_radius, model.operating.film_scale
 
@@ -45,14 +45,14 @@ def sustained_by(model: Model) -> Sustained:
 
 @dataclass(frozen=True, slots=True)
 class BelowZero:
-    """Where the film of one or two tiles ends."""
+    """Where the film breaks down on one or two tiles."""
 
-    # Mean fraction of the Hertz area where it has ended, over a whole passage [-]
+    # Mean fraction of the Hertz area without a film, over a whole passage [-]
     share: float
-    # Minimum of what the film sustains minus the deformed roughness [m], not positive where it ends
+    # Minimum of the sustained minus the deformed roughness [m], not positive at a breakdown
     deepest: float
-    pixels: tuple[tuple[int, int], ...]  # (i, j) of each tile where it is
-    # Pixels of one tile that pass through the contact and end the film; of two: not counted
+    pixels: tuple[tuple[int, int], ...]  # (i, j) on each tile at that minimum
+    # Pixels of one tile that pass through the contact and break the film; not counted for two
     count: int | None = None
 
 
@@ -64,11 +64,11 @@ def below_zero(
 ) -> BelowZero:
     """Find the minimum film over tiles, in the strip that passes through the contact.
 
-    Every pixel of a tile within b of the track passes through the contact at some time, along its
-    row, and meets the minimum smooth film of that row, and the highest point of the other tile on
-    it. The deformed roughness (nx, ny) [m], row 0 through the centre, is taken to be that at the
-    centre on the whole way. Semi-axes a and b of the contact in m, b infinite of a line. The share
-    is that of one tile, NaN of two: it needs the positions of a prediction.
+    Every pixel of a tile within b of the track passes through the contact along its row, and
+    through the minimum of the smooth film on this row; there it may meet the highest point of the
+    other tile on the row. The deformed roughness (nx, ny) [m], row 0 through the centre, is assumed
+    to be everywhere that at the centre. Semi-axes a and b of the contact in m, b infinite for a
+    line. The share is that of one tile; NaN for two, where it needs the positions of a prediction.
     """
     a, b = semi_axes
     smooth, columns = _strip(tiles, a, b, sustained)
@@ -91,9 +91,9 @@ def below_zero(
 def _strip(
     tiles: Sequence[Topography], a: float, b: float, sustained: Sustained
 ) -> tuple[Array, list[Indices]]:
-    """Give what the smooth film sustains on the rows of the contact (n, m) [m], inf outside of it.
+    """Give the roughness sustained on the rows of the contact (n, m) [m], inf outside of it.
 
-    And the column of each tile (m,) on the rows, which are as far apart as the finest pixels.
+    Also the column of each tile (m,) on the rows, whose distance is that of the finest pixels.
     """
     pixel = min(tile.pixel[1] for tile in tiles)
     if math.isinf(b):
@@ -108,7 +108,7 @@ def _strip(
 
 
 def _beyond(deformed: Array, column: Indices, smooth: Array, ended: Array) -> tuple[float, int]:
-    """Mean fraction of the contact in which one tile ends the film, and the pixels that do so."""
+    """Mean fraction of the contact without a film under one tile, and the pixels that cause it."""
     inside, below = np.isfinite(smooth), 0
     # a pixel may pass through the contact on several rows of a small tile
     limit = np.full(deformed.shape[1], np.inf)
@@ -122,7 +122,7 @@ def _beyond(deformed: Array, column: Indices, smooth: Array, ended: Array) -> tu
 
 
 def of_model(model: Model, deformed: Sequence[Array], sustained: Sustained) -> BelowZero:
-    """Find where the film of a model ends; of two surfaces over all their relative positions."""
+    """Find where the film of a model breaks down; for two surfaces over all relative positions."""
     tiles, semi_axes = [one.topography for one in model.surfaces], model.operating.semi_axes
     result = below_zero(tiles, deformed, semi_axes, sustained)
     if len(tiles) == 1 or result.deepest > 0.0:
@@ -136,7 +136,7 @@ def of_model(model: Model, deformed: Sequence[Array], sustained: Sustained) -> B
 def _in_common_period(
     model: Model, positions: RelativePositions, deformed: Sequence[Array], sustained: Sustained
 ) -> BelowZero:
-    """Find the minimum film of two surfaces over a common period, by steps of a pixel."""
+    """Find the minimum film of two surfaces over a common period, in steps of a pixel."""
     tiles, (a, b) = [one.topography for one in model.surfaces], model.operating.semi_axes
     smooth, columns = _strip(tiles, a, b, sustained)
     x = (2.0 * np.arange(PLACES) + 1.0) / PLACES - 1.0
@@ -174,34 +174,34 @@ Full = Callable[[Topography], bool]
 FEW = 0.01
 """Largest fraction of a map that counts as a few spikes: more is roughness, not dirt."""
 CUT_OFF_TOLERANCE, THRESHOLD_TOLERANCE = 0.05, 0.1
-"""Of a cut-off and of a threshold of spikes, relative."""
+"""Relative tolerances of a cut-off and of a threshold of spikes."""
 MIN_THRESHOLD = 5.0
-"""Below it points of a normal distribution would count as spikes: at 5 one in two million."""
+"""Below it points of a normal distribution would count as spikes: one in two million at 5."""
 
 
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """Where the film ends, and with which cut-off or threshold it would be full."""
+    """Where the film breaks down, and with which cut-off or threshold it would be full."""
 
     below: BelowZero
     groups: tuple[str, ...]  # of the case, one for each surface
-    # x, y of the deepest point on each surface [m]; of a prepared map from the corner of what was
-    # left of it after cropping and turning
+    # x, y of the deepest point on each surface [m]; on a prepared map from its corner after
+    # cropping and rotation
     places: tuple[tuple[float, float], ...]
-    # `shortest_wavelength` [m] of each, then of both, with which the film is full and the error of
-    # the predicted friction known; None: there is none
+    # `shortest_wavelength` [m] of each, then of both, with a full film and a known error of the
+    # predicted friction; None: there is none
     wavelengths: tuple[float | None, ...] = ()
-    # `outliers` of one map with which both hold, and how many points that removes; None: the
-    # surface is no map, or more than a few points would have to go
+    # `outliers` of one map with the same properties, and the number of points that it removes;
+    # None: the surface is not a map, or more than a few points would be removed
     outliers: float | None = None
     outlier_points: int | None = None
-    # Options that take off what is no roughness, see :mod:`pyehl.surfaces.findings`: they come
-    # first, and no wave or spike was looked for
+    # Options that remove artefacts, see :mod:`pyehl.surfaces.findings`; with these neither a
+    # cut-off nor a threshold is suggested
     first: tuple[str, ...] = ()
 
     @property
     def summary(self) -> dict[str, float | int | None]:
-        """Return what ``summary.json`` holds of it."""
+        """Return its entry in ``summary.json``."""
         two = len(self.places) > 1
         result: dict[str, float | int | None] = {}
         for prefix, (x, y) in zip(("", "second_"), self.places, strict=False):
@@ -258,9 +258,9 @@ def advise(
     sustained: Sustained,
     without_spikes: Callable[[float], Topography] | None = None,
 ) -> Advice:
-    """Say where the film of a model, which is not full, ends, and with which cut-off it would be.
+    """Find where the film of a model breaks down, and the cut-offs with which it would be full.
 
-    With the film full the error of the predicted friction must be known, too. `without_spikes`
+    With the full film the error of the predicted friction must be known as well. `without_spikes`
     takes a threshold of `surface.outliers` and returns the one tile without them.
     """
 
@@ -294,13 +294,13 @@ def advise(
 
 
 def _place(tile: Topography, i: int, j: int) -> tuple[float, float]:
-    """Place of a pixel on the surface [m]; of a prepared map on the map."""
+    """Position of a pixel on the surface [m]; on a prepared map from its corner."""
     made = tile.preparation
     return made.place(i, j) if made else (i * tile.pixel[0], j * tile.pixel[1])
 
 
 def ways_into_range(model: Model) -> str:
-    """Say which cut-offs would bring the ratio into the range of the model; '' for none."""
+    """Name the cut-offs that bring the ratio into the range of the model; '' for none."""
     model = model.merged or model
     if first := remedies(model):
         return "; " + ", ".join(f"first {option}" for option in first)
@@ -328,7 +328,7 @@ def ways_into_range(model: Model) -> str:
 
 
 def remedies(model: Model) -> list[str]:
-    """Options that take form and line offsets off maps: cuts of waves would take them as well."""
+    """Options that remove form and line offsets from maps, which a cut-off would also remove."""
     return [
         f"{finding.remedy.replace('surface.', f'{one.groups[0]}.')} ({finding.kind})"
         for one in model.surfaces
@@ -339,24 +339,24 @@ def remedies(model: Model) -> list[str]:
 
 
 def known(model: Model) -> bool:
-    """Whether the error of the ratio is; that of the paper never is, and is not asked for."""
+    """Whether the error of the ratio is known; for the model of the paper it is not required."""
     return model.options.as_in_paper or math.isfinite(model_error(mean(model)))
 
 
 def choices(count: int) -> list[tuple[int, ...]]:
-    """Numbers of the surfaces of which short waves are cut: each alone, then both."""
+    """Numbers of the surfaces whose short waves are cut: each alone, then both."""
     return [(0,)] if count == 1 else [(0,), (1,), (0, 1)]
 
 
 def suggested_wavelength(
     shortest: float, longest: float, full: Callable[[float], bool]
 ) -> float | None:
-    """Find the cut-off [m] at which the film is full: shorter waves are taken off.
+    """Find a cut-off [m] below which waves are removed so that the film is full.
 
-    Bisection in the logarithm of the wavelength to 5 %, between a `shortest` one, two pixels, and
-    the `longest`, the length of the tile; the film need not be full for every longer cut-off, but
-    it is for the one returned. `full`: whether it is for a cut-off. None if even the longest
-    waves break the film.
+    Bisection in the logarithm of the wavelength to 5 %, between the `shortest` one, two pixels, and
+    the `longest`, the length of the tile. The film is full for the returned cut-off, but not
+    necessarily for every longer one. `full`: whether the film is full for a cut-off. None if even
+    the longest waves break the film.
     """
     low, high = math.log(shortest), math.log(longest)
     if not full(math.exp(high)):
@@ -374,10 +374,11 @@ def suggested_wavelength(
 def suggested_outliers(
     away: Array, without_spikes: Callable[[float], Topography], full: Full
 ) -> tuple[float, int] | None:
-    """Find the threshold of spikes at which the film is full, if a few points are what breaks it.
+    """Find a threshold of spikes with which the film is full, if only a few points break it.
 
-    `away` is (nx, ny), see :func:`pyehl.surfaces.map_steps.prominence`; `without_spikes` takes
-    a threshold. Threshold and number of points beyond it; None if more than a few have to go.
+    `away` is (nx, ny), see :func:`pyehl.surfaces.map_steps.prominence`; `without_spikes` takes a
+    threshold. Returns the threshold and the number of points above it; None if more than a few
+    points would be removed.
     """
     allowed = float(np.quantile(away, 1.0 - FEW))
     low = max(MIN_THRESHOLD, allowed)
@@ -391,7 +392,7 @@ def suggested_outliers(
             below = middle
         else:
             above = middle
-    # a threshold that a person would write, on the safe side
+    # a threshold of two digits, on the safe side
     rounded = float(f"{math.exp(below):.2g}")
     if rounded > math.exp(below) or rounded < low or not full(without_spikes(rounded)):
         rounded = math.exp(below)
@@ -401,7 +402,7 @@ def suggested_outliers(
 def _spikes(
     made: Preparation, without_spikes: Callable[[float], Topography], full: Full
 ) -> tuple[float, int] | None:
-    """Threshold with a full film, and the number of points beyond it."""
+    """Threshold with a full film, and the number of points above it."""
     heights = made.scan.heights
     if any(made.options.crop):
         nx, ny = heights.shape
@@ -410,15 +411,15 @@ def _spikes(
     try:
         away = prominence(heights)
     except ValueError:
-        # no spread that spikes could exceed
+        # no spread to compare spikes with
         return None
     return suggested_outliers(away, without_spikes, full)
 
 
 def within_range(below: Callable[[float], float], shortest: float, longest: float) -> float | None:
-    """Wavelength [a] without whose shorter waves mu_r/mu_s is in the range of the model.
+    """Cut-off wavelength [a] with which mu_r/mu_s is in the range of the model.
 
-    Within a tenth, between a `shortest` one and the `longest` of the surface; None: there is none.
+    To a tenth, between the `shortest` and the `longest` one of the surface; None: there is none.
     `below` gives mu_r/mu_s without waves shorter than a length.
     """
     low, high = shortest, longest
@@ -431,7 +432,7 @@ def within_range(below: Callable[[float], float], shortest: float, longest: floa
 
 
 def confirmed(start: float, longest: float, good: Callable[[float], bool]) -> float | None:
-    """First wavelength of two digits, from `start` [m] on in steps of a tenth, that is good.
+    """First good wavelength of two digits, from `start` [m] on in steps of a tenth.
 
     None if there is none up to `longest` [m].
     """

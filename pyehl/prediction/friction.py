@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Friction of a model over a passage, its tracks and bands of wavelengths, with its errors.
 
-With a full film, and with contact at a boundary film.
+For a full film, and for solid contact at a boundary film.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from pyehl.types import Array
 BEYOND = "beyond linear response"
 """Status where the ratio is outside of the model."""
 STATUSES = ("predicted", "film breakdown", BEYOND, "load lost", "overflow")
-"""All statuses of a prediction; every one but the first is one without a ratio."""
+"""All statuses of a prediction; only the first one has a ratio."""
 TRACKS = 8
 """Default number of tracks for mean and spread."""
 
@@ -68,31 +68,30 @@ class RoughFriction:
     mu_ratio: float
     mu_ratio_min: float
     mu_ratio_max: float
-    # Error of half as many positions at the others, relative to the mean: an upper estimate of the
-    # error by the positions. NaN for an odd number of them
+    # Error of an interpolation from every second position, relative to the mean: an upper estimate
+    # of the error due to the number of positions. NaN for an odd number
     position_error: float
-    # (n,) how far each tile has moved [m], equally spaced over its length. Of two rough surfaces
-    # over their common period; in the order of a lattice where there is none
+    # (n,) displacement of each tile [m], equally spaced over its length; for two rough surfaces
+    # over their common period, or without one in the order of a lattice
     shifts: tuple[Array, ...]
     passage: Array  # (n,) mu_r/mu_s there [-]
-    # Friction coefficient of the smooth contact at the slide-to-roll ratio [-]; without meaning for
-    # a Newtonian lubricant
+    # Friction coefficient of the smooth contact at the slide-to-roll ratio [-]; it has no meaning
+    # for a Newtonian lubricant
     mu_smooth: float
-    film_min: float  # minimum film over the passage [m]; NaN where it ends
-    # Increase of the pressure over the passage, its rms within NEAR
-    # and the maximum within INNER [Pa]
+    film_min: float  # minimum film over the passage [m]; NaN at a film breakdown
+    # Pressure increase over the passage: rms within NEAR, maximum within INNER [Pa]
     increase_rms: float
     increase_max: float
     pressure_max: float  # maximum pressure over the passage within INNER [Pa]
-    # Mean fraction of the contact with less film than psd.film_limit [-], and its error by that of
-    # the film; NaN without a limit
+    # Mean fraction of the contact with a film below psd.film_limit [-], and its error due to that
+    # of the film; NaN without a limit
     below_limit: float
     below_limit_error: float
     cavitated_share: float  # mean fraction of the contact where p_s + delta p <= 0 [-]
     cavitated_friction: float  # bound on the fraction of friction from there [-]
     # Maximum |integral of delta p|/w over the passage [-], before any load balance
     load_error: float
-    # Mean fraction of the contact where the film has ended, in the positions [-]
+    # Mean fraction of the contact without a film, over the positions [-]
     ended: float
     # delta p and deformed roughness of each surface on the grid of its tile
     responses: tuple[Response, ...]
@@ -104,7 +103,7 @@ class RoughFriction:
 
     @property
     def shift(self) -> Array:
-        """How far the tile of the (first) surface has moved (n,) [m]."""
+        """Displacement of the tile of the (first) surface (n,) [m]."""
         return self.shifts[0]
 
 
@@ -118,7 +117,7 @@ def meaning(lubricant: Lubricant, operating: AnyContact) -> str:
 def outcome(
     contact: ShearedContact, ratios: Array, *, load_balance: bool = False
 ) -> tuple[str, str]:
-    """Give status and message of a passage by mu_r/mu_s at its positions (n,).
+    """Give status and message of a passage from mu_r/mu_s at its positions (n,).
 
     `load_balance`: the load on the roughness is subtracted from the smooth contact.
     """
@@ -142,9 +141,9 @@ def too_high(height: float) -> str:
 
 
 def broken(friction: RoughFriction, sustained: float) -> RoughFriction:
-    """Return a prediction whose film ends between its positions: no film, no ratio.
+    """Return a prediction whose film breaks down between its positions, without film and ratio.
 
-    `sustained`: minimum of what the film sustains minus the deformed roughness [m].
+    `sustained`: minimum of the sustained minus the deformed roughness [m].
     """
     ratios = ("mu_ratio", "mu_ratio_min", "mu_ratio_max", "position_error")
     lost = unknown(*ratios, "film_min", "cavitated_friction")
@@ -157,9 +156,9 @@ def unknown(*names: str) -> dict[str, Any]:
 
 
 ROUGH_FILM_ERROR = 0.35
-"""Error of a film over roughness, of the rms height of the deformed roughness
+"""Error of a film over roughness, over the rms height of the deformed roughness
 (docs/evidence/thinning)."""
-# Slip above which it is twice as large
+# Slip above which this error is twice as large
 MUCH_SLIP = 0.2
 
 
@@ -172,10 +171,10 @@ def film_share(*velocity_ratios: float) -> float:
 def film_levels(
     limit: float, waves: Sequence[tuple[Array, Array]], velocity_ratios: Sequence[float]
 ) -> tuple[float, ...]:
-    """Film limit less its error, itself, and with its error; () without a limit.
+    """Film limit minus its error, the limit, and the limit plus its error; () without a limit.
 
-    Of each surface `waves` has the mean square of the components of the roughness, in the square of
-    the unit of the limit, and how much of each the contact leaves.
+    For each surface `waves` has the mean square of the components of the roughness, in the square
+    of the unit of the limit, and their amplitude ratios in the contact.
     """
     left = sum(float((power * np.square(ratio)).sum()) for power, ratio in waves)
     margin = film_share(*velocity_ratios) * math.sqrt(left)
@@ -184,24 +183,24 @@ def film_levels(
 
 @dataclass(frozen=True, slots=True)
 class MixedFilm:
-    """A partial film over the passage of a tile: means, but of the film, and errors; NaN: none."""
+    """Mixed lubrication over a passage: means, minimum film and errors; NaN: not known."""
 
     note: str = ""  # why an error or all numbers are missing
-    load_share: float = math.nan  # share of the load where bodies touch [-]
+    load_share: float = math.nan  # share of the load in solid contact [-]
     load_share_error: float = math.nan
-    area_share: float = math.nan  # their area there over that of the dry contact [-]
+    area_share: float = math.nan  # area of solid contact over that of the dry contact [-]
     area_share_error: float = math.nan
     film_min: float = math.nan  # minimum film [m]
     film_min_error: float = math.nan
-    # Friction over that of the smooth contact [-], and coefficient of the latter, both with the
-    # boundary film; NaN where bodies touch and its friction is not known
+    # Friction over that of the smooth contact [-], and coefficient of friction of the latter, both
+    # with the boundary film; NaN if its friction is needed and not known
     friction: float = math.nan
     friction_error: float = math.nan
     mu_smooth: float = math.nan
     shift: Array = field(default_factory=lambda: np.zeros(0))  # of the tile (n,) [m]
-    passage: Array = field(default_factory=lambda: np.zeros(0))  # (n,) friction there
-    lost: bool = False  # whether bodies touch, and no result of that is known
-    heat: Heat | None = None  # effect of the heat on friction where bodies touch
+    passage: Array = field(default_factory=lambda: np.zeros(0))  # (n,) friction ratio there
+    lost: bool = False  # whether there is solid contact of unknown extent
+    heat: Heat | None = None  # effect of frictional heating on friction with solid contact
 
     @property
     def touches(self) -> bool:
@@ -214,13 +213,13 @@ class MixedFilm:
         return self.touches and not math.isfinite(self.friction)
 
     def unknown(self, note: str) -> MixedFilm:
-        """Remove its numbers for a reason: all where bodies may touch."""
+        """Remove the numbers for a reason, unless the film is certainly full."""
         if self.load_share == 0.0 == self.load_share_error:
             return self
         return MixedFilm(note, mu_smooth=self.mu_smooth, lost=self.lost or self.touches)
 
     def without_errors(self, note: str) -> MixedFilm:
-        """Remove its errors for a reason."""
+        """Remove the errors for a reason."""
         errors = ("load_share_error", "area_share_error", "film_min_error", "friction_error")
         return replace(self, note=self.note or note, **unknown(*errors))
 
@@ -234,13 +233,13 @@ class Outcome(NamedTuple):
 
 
 def with_contact(result: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]:
-    """Friction where bodies touch, from that of a full film, and known parts of the partial film.
+    """Add solid contact to the friction of a full film; returns friction and known contact results.
 
-    A prediction without contact, or whose contact is not known, stays as it is.
+    A prediction without solid contact, or with unknown contact, does not change.
     """
     friction = result.friction
     if friction.status == "film breakdown" and not mixed.touches:
-        # contact is not known where the film ends, and none was found there
+        # contact is not known at a film breakdown for which none was found
         mixed = replace(mixed if mixed.note else MixedFilm(BETWEEN), mu_smooth=mixed.mu_smooth)
         mixed = replace(mixed, lost=True)
     if mixed.lost:
@@ -250,7 +249,7 @@ def with_contact(result: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]
     fine = interpolated(mixed.passage, 8)
     known = math.isfinite(mixed.friction)
     if friction.status != "predicted":
-        # a full film that breaks down has no pressures
+        # without a full film these numbers are not known
         numbers = ("increase_rms", "increase_max", "pressure_max", "below_limit")
         friction = replace(friction, **unknown(*numbers, "below_limit_error"))
     friction = replace(
@@ -271,7 +270,7 @@ def with_contact(result: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]
 
 
 def _lost(friction: RoughFriction, mixed: MixedFilm) -> RoughFriction:
-    """Remove the friction of a full film where bodies touch to an unknown extent."""
+    """Remove the friction of a full film if there is solid contact of unknown extent."""
     message = f"the bodies touch at the boundary film, and nothing of that is known: {mixed.note}"
     if friction.status != "predicted":
         message = f"{friction.message}; {message}"
@@ -286,8 +285,8 @@ def run(
 ) -> Outcome:
     """Friction over the passage, mean and spread over the tracks, and contribution of each band.
 
-    `brief`: of the bands the shortest alone. No tracks: NaN for mean and spread. `waves`: if they
-    were made.
+    `brief`: only the band of the shortest waves. Without tracks mean and spread are NaN. `waves`:
+    the components, if they are known already.
     """
     if model.merged is not None:
         together = run(model.merged, tracks, brief=brief)
@@ -320,7 +319,7 @@ def _over_tracks(
     tracks: int,
     first: float,
 ) -> list[float]:
-    """mu_r/mu_s on a number of tracks, `first` on that of the case."""
+    """mu_r/mu_s on a number of tracks; `first` is that on the track of the case."""
     offsets = [track_offsets(one.topography, tracks) if tracks else [] for one in model.in_order]
     if len(waves) == 1:
         pixel = model.surfaces[0].topography.length_y / waves[0].spectrum.shape[1]
@@ -330,10 +329,10 @@ def _over_tracks(
             first if d == 0.0 else positions.short_mean(contact.friction, track)
             for d, track in moved
         ]
-    # on both, in opposite order
+    # the tracks of both surfaces, in opposite order
     a = model.operating.hertz_radius
     pairs = [(offsets[0][k] / a, offsets[1][-k % tracks] / a) for k in range(tracks)]
-    # sorted: the same for either order of the surfaces
+    # sorted, so that the order of the surfaces has no effect
     return sorted(
         positions.short_mean(model.rough_contact(waves, tracks=pair).friction)
         if any(pair)
@@ -343,7 +342,7 @@ def _over_tracks(
 
 
 def mean(model: Model, waves: Components | None = None) -> float:
-    """mu_r/mu_s over a few positions [-]; NaN where the film ends."""
+    """mu_r/mu_s over a few positions [-]; NaN at a film breakdown."""
     if model.merged is not None:
         return mean(model.merged)
     waves = waves or model.components()
@@ -352,9 +351,9 @@ def mean(model: Model, waves: Components | None = None) -> float:
 
 
 def run_and_below(model: Model, *shortest: float) -> tuple[RoughFriction, list[float]]:
-    """Friction in brief, and mu_r/mu_s without the waves shorter than some lengths [a].
+    """Friction without tracks, and mu_r/mu_s without waves shorter than some lengths [a].
 
-    The latter over a few positions each, and none where friction is not predicted.
+    The latter over a few positions each; empty if friction is not predicted.
     """
     if model.merged is not None:
         return run_and_below(model.merged, *shortest)
@@ -368,9 +367,9 @@ def run_and_below(model: Model, *shortest: float) -> tuple[RoughFriction, list[f
 
 
 def below(model: Model, waves: Components, limits: Sequence[float]) -> float:
-    """mu_r/mu_s of the waves with |q| below a limit [1/a] of each surface, in order.
+    """mu_r/mu_s of the waves with |q| below a limit [1/a] for each surface, in order.
 
-    On as few pixels as they need.
+    The waves are on as few pixels as they need.
     """
     kept, powers = [], []
     for wave, limit in zip(waves, limits, strict=True):
@@ -420,7 +419,7 @@ def _result(
 
 
 def _bands(model: Model, waves: Components, total: float, *, brief: bool) -> list[Band]:
-    """Return the contribution of each octave, or of the last one alone, to that of longer waves."""
+    """Return the contribution of each octave added to all longer waves; `brief`: of the last."""
     parts = [
         (w.spectrum.q, w.spectrum.power, np.abs(w.at_centre()), np.abs(w.pressure_at_centre()))
         for w in waves

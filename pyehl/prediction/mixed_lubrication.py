@@ -1,28 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contact at a boundary film, where the film of the response would be thinner than that film.
+"""Solid contact where the predicted film would be thinner than the boundary film.
 
-The film of the response, at one position of the tile after another, must not be thinner than the
+The film predicted by the response must not, at any position of the tile, be thinner than the
 boundary film (``lubricant.boundary_film``; under pressure it is compressed as the lubricant is). A
-pressure p_c of contact lifts it. It bends the surfaces as if the roughness r were r - p_c/K there,
-K being the stiffness of the half-space, and the fluid flattens that as it does any roughness. So
-the loss of film falls by T p_c/K and the pressure grows by T p_c, T by the response for waves that
-move with the lubricant as the films of nodes in contact do. For waves as long as the contact T is
-near zero: solid contact then takes load from the fluid, and the mean film remains that of the
-inlet.
+contact pressure p_c increases the film. It deforms the surfaces as if the roughness r were r -
+p_c/K, K being the stiffness of the half-space, and the fluid flattens this difference like any
+roughness. So the film reduction decreases by T p_c/K and the pressure increases by T p_c, where T
+is the response to waves that move with the lubricant, as the films of nodes in contact do. For
+waves as long as the contact T is near zero: solid contact then relieves the fluid of load, and the
+mean film remains that of the inlet.
 
-The mean film is thicker where contact would otherwise sustain more than the load, and by the mass
-defect of the boundary film. A column of lubricant that a peak has passed has at least the thickness
-of the boundary film. So its mass defect is the largest deficit during its passage, in which peaks
-that slip pass it one after the other, and all films are thicker by the mean s of that:
+The mean film is thicker if contact would otherwise sustain more than the load, and because of the
+mass defect of the boundary film. A column of lubricant that a peak has passed has at least the
+thickness of the boundary film. So its mass defect is the largest deficit during its passage, in
+which sliding peaks pass it one after the other, and all films are thicker by the mean s of the mass
+defects:
 
     s = < max(0, h_b - h_min - s) >,   h_min the minimum film of the column during its passage.
 
-Without roughness this is not the solution of the smooth contact: the boundary film makes the film
-of its inlet thinner there. The change of all films with which this contact has the load share of
-that solution is the error of the films, and friction is relative to the smooth contact with films
-changed so. Compared with the full simulation in docs/evidence/partial.
+Without roughness this differs from the solution of the smooth contact, in which the boundary film
+reduces the film from the inlet. The uniform change of film with which this model has the load share
+of that solution is the error of the films, and the reference of the friction is the smooth contact
+with this change. docs/evidence/partial compares the model with the full simulation.
 
-:func:`mixed_film` returns means over the passage of a tile, their errors, and why one is missing.
+:func:`mixed_film` returns means over the passage of a tile, their errors, and the reason if one is
+missing.
 """
 
 from __future__ import annotations
@@ -51,15 +53,16 @@ HOLD = 0.01
 """Bodies touch where the film exceeds the boundary film by less than this fraction, as in the
 solver (``fortran/reynolds/boundary_film.f90``)."""
 OPEN = 1.0
-"""Film outside of the contact [a^2/R]: any value, since there is no heat without pressure."""
+"""Film outside of the contact [a^2/R]; any value serves, since there is no heat without
+pressure."""
 MIN_LEFT = 0.02
 """Minimum amplitude ratio of waves, some of which the fluid flattens nearly completely: half and
-twice of it change no digit of the contact in docs/howto/mixed.md."""
+twice this value change no digit of the contact in docs/howto/mixed.md."""
 DEFECT_TOLERANCE = 1e-4
-"""Error of the film by the mass defect, over the boundary film: far below HOLD."""
+"""Error of the film increase by the mass defect, over the boundary film: far below HOLD."""
 SHARE, FARTHEST = 1e-3, 1.0
-"""Error of the load share of a smooth contact, and the largest film over its minimum film, in the
-search for the film that has it."""
+"""Tolerance of the load share of a smooth contact, and the largest change of film over its minimum
+film, in the search for the change that gives this share."""
 BOX = 1.25
 """Length of the periodic box of pressures over that of the contact: 1.1 and 2 change the load share
 in docs/howto/mixed.md by 2 and 4 % of itself, a tenth of its error."""
@@ -67,21 +70,21 @@ in docs/howto/mixed.md by 2 and 4 % of itself, a tenth of its error."""
 
 @dataclass(slots=True)
 class Level:
-    """Results of the positions with all films thicker by a length [a^2/R]."""
+    """Results at all positions with the films increased by a length [a^2/R]."""
 
     thicker: float
     minimum: float = math.inf  # film [a^2/R]
-    # In each position: shares of the load and of the area in solid contact, sum of the shear stress
+    # At each position: shares of the load and of the area in solid contact, sum of the shear stress
     load: list[float] = field(default_factory=list)
     area: list[float] = field(default_factory=list)
     stress: list[float] = field(default_factory=list)
 
 
 class MixedContact:
-    """A contact with a boundary film [m], with `points` points per shorter semi-axis.
+    """A rough contact with a boundary film [m], on `points` points per shorter semi-axis.
 
-    Under one rough surface with heights on a `grid`; `friction` of the boundary film [-], 0: not
-    known.
+    The heights of its rough surface are on a `grid`; `friction` is that of the boundary film [-],
+    0: not known.
     """
 
     def __init__(
@@ -100,32 +103,31 @@ class MixedContact:
         self.stride = self.tile.stride
         self.rough = RoughContact.on_pixels(model.contact, o, model.lubricant, self.tile)
         self.boundary = boundary / o.film_scale
-        # of the stress of the boundary film over its pressure, as `ShearedContact.stress` has
-        # stresses
+        # stress of the boundary film over its pressure, in the unit of `ShearedContact.stress`
         unit = 1.0 if self.rough.thins else model.lubricant.viscosity * o.sliding_speed
         known = friction > 0.0 and o.sliding_speed > 0.0
         self.rubbing = friction * o.hertz_pressure / unit if known else math.nan
-        # films that were scaled to the extrapolated central film are off at the sides
+        # films scaled to the extrapolated central film need a correction at the sides
         self.film = self.rough.film + missing(model.contact, self.rough.film, self.rough.lowest)
         self.slip_path = self._slip_path()
         self.load = float(self.rough.pressure.sum(where=self.rough.inside))
         self.whole_load = o.load / (o.hertz_pressure * self.rough.area)
         self._bend(self._around(grid))
-        # pressure, film and where bodies touch at each position, of the film itself
+        # pressure, film and nodes in contact at each position, for the films without a change
         self.solutions: dict[int, tuple[Array, Array, Mask]] = {}
 
     def _slip_path(self) -> Indices:
-        """Points by which peaks have slipped past a column since the inlet (m, n)."""
+        """Distance by which peaks have passed a column since the inlet [points] (m, n)."""
         rough = self.rough
         way = slipped(rough.x[:, np.newaxis], rough.across, self.velocity_ratio, bent=True)
         return np.rint(way / (self.stride * self.tile.pixel[0])).astype(int)
 
     def _mass_defect(self, deficit: Array) -> float:
-        """Film by the mass defect of the boundary film [a^2/R], from the deficit (m, n)."""
+        """Film increase by the mass defect of the boundary film [a^2/R]; deficit (m, n)."""
         most = deficit.copy()
         direction = 1 if self.velocity_ratio > 1.0 else -1
         for step in range(1, int(np.abs(self.slip_path).max()) + 1):
-            # peaks that are faster than the lubricant are ahead of where they met it
+            # peaks that are faster than the lubricant are now ahead of the column that they passed
             met = np.full_like(deficit, -np.inf)
             ahead, here = slice(step, None), slice(None, -step)
             met[here if direction > 0 else ahead] = deficit[ahead if direction > 0 else here]
@@ -144,7 +146,7 @@ class MixedContact:
         rough, tile, o = self.rough, self.tile, self.model.operating
         box = [scipy.fft.next_fast_len(math.ceil(BOX * n), real=True) for n in rough.film.shape]
         if rough.strip:
-            # the strip repeats itself
+            # the strip is periodic
             box[1] = rough.film.shape[1]
         firsts = tile.rows[0], tile.columns[0]
         rows, columns = (
@@ -172,7 +174,7 @@ class MixedContact:
         return self.boundary / self.model.lubricant.density_ratio(p)
 
     def add(self, shift: int, levels: list[Level]) -> bool:
-        """Add a position to levels; False: it is not solved."""
+        """Add a position to all levels; False: it has no solution."""
         rough, held = self.rough, None
         change = rough.change((shift, 0)).astype(float)
         for level in levels:
@@ -191,10 +193,10 @@ class MixedContact:
     def _state(
         self, change: Array, thicker: float, held: SolidContact | None
     ) -> tuple[SolidContact | None, tuple[Array, Array, Mask]]:
-        """Pressure, film and where bodies touch (m, n), by loss of film and increase of pressure.
+        """Contact pressure, and pressure, film and nodes in contact (m, n), for changed films.
 
-        `change` (m, n, 2) where films are thicker by a length; also the contact pressure;
-        None: it is not solved. It starts from that of a similar state.
+        `change` (m, n, 2): film reduction and pressure increase; `thicker`: increase of all films;
+        `held`: the contact pressure of a similar state, to start from. None: no solution.
         """
         linear = self.rough.pressure + change[..., 1]
         floor = self._floor(linear)
@@ -214,9 +216,9 @@ class MixedContact:
         return float(pressure.sum(where=touching)) / whole
 
     def film_off(self, share: float) -> float:
-        """Film [a^2/R] by which all were thicker in a smooth contact with a load share.
+        """Increase of all films [a^2/R] with which the smooth contact has a load share.
 
-        To SHARE; NaN where none up to FARTHEST does, or the share is not known.
+        To the tolerance SHARE; NaN if no change up to FARTHEST gives it, or the share is not known.
         """
         farthest = FARTHEST * self.rough.lowest
         low, high, off = -farthest, farthest, 0.0
@@ -231,7 +233,7 @@ class MixedContact:
         return math.nan
 
     def _of_smooth(self, thicker: float) -> tuple[Array, Array, Mask] | None:
-        """Pressure, film and where bodies touch without roughness; None: not solved."""
+        """Pressure, film and nodes in contact without roughness; None: no solution."""
         held, state = self._state(np.zeros((*self.film.shape, 2)), thicker, None)
         return None if held is None else state
 
@@ -239,7 +241,7 @@ class MixedContact:
         return self.rough.inside & (film <= (1.0 + HOLD) * floor) & (pressure > 0.0)
 
     def _stress(self, pressure: Array, film: Array, touching: Mask) -> float:
-        """Sum of the shear stress, of the boundary film by its load share; NaN: not known."""
+        """Sum of the shear stress, for the boundary film from its load share; NaN: not known."""
         stress, inside = self.rough.stress(pressure, film), self.rough.inside
         flowing = float(stress.sum(where=inside & ~touching))
         if not touching.any():
@@ -247,9 +249,9 @@ class MixedContact:
         return flowing + self.rubbing * self.whole_load * self._share(pressure, touching)
 
     def heat(self, steps: Indices, settings: Settings) -> Heat | None:
-        """Heat of sliding at some positions: of friction a mean, of the rises the maximum.
+        """Frictional heating at some positions: mean effect on friction, maximum temperature rises.
 
-        None where bodies do not touch, or the friction of the boundary film is not known.
+        None without solid contact, or if the friction of the boundary film is not known.
         """
         touches = any(touching.any() for _, _, touching in self.solutions.values())
         if not (touches and math.isfinite(self.rubbing)):
@@ -257,16 +259,17 @@ class MixedContact:
         heat_of = HeatOf(settings, self.model.lubricant, self.rough.x, self.rough.y)
         result = [self.solutions[int(step)] for step in steps]
         inside = self.rough.inside
-        # there is no heat outside of the points of friction
+        # heat is generated only at the points of friction
         return mean_heat(
             [heat_of(np.where(inside, p, 0.0), np.where(inside, h, OPEN), t) for p, h, t in result],
             [self._stress(*state) for state in result],
         )
 
     def smooth_friction(self, off: float) -> float:
-        """Sum of the shear stress of the smooth contact, which touches where films `film_off` do.
+        """Sum of the shear stress of the smooth contact, with solid contact for a change of films.
 
-        NaN: where its own film is not above the boundary film.
+        `off`: result of `film_off`; if it is NaN solid contact follows from the unchanged film. NaN
+        if the friction of the boundary film is needed and not known.
         """
         pressure = self.rough.pressure
         film = np.maximum(self.film, self._floor(pressure))
@@ -278,16 +281,16 @@ class MixedContact:
 
 POSITIONS = 16
 """Positions of the tile over its passage: 32 and 64 change the load share in docs/howto/mixed.md by
-0.2 % of itself. The change by every second one is part of the errors."""
+0.2 % of itself. The change by using every second one is part of the errors."""
 TEMPERATURE_POSITIONS = 4
-"""Of these, in which the temperature is computed: 8 and 16 change mu of such contacts by 0.03 %."""
+"""Number of these for the temperature: 8 and 16 change mu of such contacts by 0.03 %."""
 TOUCHING_FILM_ERROR = 0.45
-"""Error of the film at which bodies touch, of the rms height of the deformed surface
+"""Error of the film at which solid contact begins, over the rms height of the deformed surface
 (docs/evidence/partial)."""
 WAVE_POINTS, SHORTER, CONTACT_POINTS = 8, 1e-3, (60.0, 128.0)
-"""Points of the shortest waves, as many as a grid needs to resolve them; the fraction of the
-variance that shorter ones may have; the minimum of points per shorter semi-axis, as without a
-boundary film, and the maximum: the time grows with its square."""
+"""Points per shortest wave, as many as a grid needs to resolve it; fraction of the variance that
+shorter waves may have; minimum and maximum number of points per shorter semi-axis: the minimum is
+that without a boundary film, and the time grows with the square."""
 
 # Why contact at a boundary film is not predicted, or its errors are not known
 OF_TWO = "contact at a boundary film is predicted for a single rough surface"
@@ -301,7 +304,7 @@ NO_SMOOTH = "no film has the load share of the smooth contact, by which the erro
 def mixed_film(
     model: Model, waves: Components, settings: Settings, smooth: SmoothContact
 ) -> MixedFilm | None:
-    """Find the partial film of a resolved case under a model; None without a boundary film.
+    """Predict the mixed lubrication of a resolved case; None without a boundary film.
 
     `smooth`: the smooth contact with its boundary film.
     """
@@ -327,10 +330,10 @@ def partial_film(
     settings: Settings,
     with_boundary_film: SmoothContact,
 ) -> MixedFilm:
-    """Find the partial film over a passage of one tile, with a boundary film [m].
+    """Predict the mixed lubrication over a passage of one tile, with a boundary film [m].
 
-    Its errors are by a film that is thicker and thinner by its error; none where the smooth contact
-    `with_boundary_film` is not known.
+    Its errors follow from films increased and decreased by their error; they are not known if the
+    smooth contact `with_boundary_film` is not known.
     """
     (grid,), (wave,), o = model.grids(), waves, model.operating
     friction = float(settings["lubricant"]["boundary_friction"])
@@ -338,7 +341,7 @@ def partial_film(
     points = WAVE_POINTS / _shortest(wave.spectrum, power)
     within = min(max(points, CONTACT_POINTS[0]), CONTACT_POINTS[1])
     contact = MixedContact(model, waves, grid, within, boundary, friction)
-    # the error of the smooth film, where that is more: bodies touch at its minimum
+    # or the error of the minimum smooth film if that is larger: there solid contact begins
     of_smooth = np.nan_to_num(model.contact.minimum_film_error)
     margin = max(TOUCHING_FILM_ERROR * math.sqrt(float(power.sum())), float(of_smooth))
     off = (
@@ -364,7 +367,7 @@ def partial_film(
         area_share=area,
         area_share_error=area_error,
         film_min=minimum[0],
-        # bodies touch to HOLD
+        # solid contact is defined to a relative film HOLD
         film_min_error=max(HOLD * minimum[0], *(abs(film - minimum[0]) for film in minimum[1:])),
         friction=ratio,
         friction_error=ratio_error,
@@ -379,14 +382,14 @@ def partial_film(
 
 
 def _mean(values: list[list[float]]) -> tuple[float, float]:
-    """Mean at the film itself, and its error by the other films and by the positions."""
+    """Mean for the unchanged film, and its error from the changed films and from the positions."""
     mean, *others = (float(np.mean(part)) for part in values)
     error = max(abs(other - mean) for other in others) + abs(np.mean(values[0][::2]) - mean)
     return mean, float(error)
 
 
 def _shortest(spectrum: Spectrum, power: Array) -> float:
-    """Wavelength [a] below which waves have hardly any of a power."""
+    """Wavelength [a] below which waves have a fraction SHORTER of a power."""
     order = np.argsort(spectrum.q, axis=None)[::-1]
     beyond = np.cumsum(power.ravel()[order]) > SHORTER * power.sum()
     return 2.0 * math.pi / float(spectrum.q.ravel()[order[int(np.argmax(beyond))]])

@@ -34,8 +34,9 @@ errors                                  :func:`model.model_error`
 ======================================= ==========================================================
 
 Two surfaces: to first order each is deformed as if the other one were smooth, at its own velocity
-ratio; film and pressure of both add up. Of second order are products of waves of both, and the
-waves leak as those of the amplitude of both. The result does not depend on which is the first.
+ratio, and the changes of film and pressure by both add up. The second-order terms include products
+of the waves of both surfaces, and the leak depends on their total amplitude. The result does not
+depend on the order of the surfaces.
 """
 
 from __future__ import annotations
@@ -68,9 +69,9 @@ from pyehl.types import Array, Settings
 
 @dataclass(frozen=True, slots=True)
 class ModelOptions:
-    """How the model is read: the group ``psd`` of a case, whose schema has the allowed words."""
+    """Options of the model: the group ``psd`` of a case, whose schema has the allowed words."""
 
-    # What is left of a wave in the contact: ``"response"``, the complex response of
+    # Amplitude ratio of a wave in the contact: ``"response"``, the complex response of
     # :mod:`pyehl.theory.response`, or ``"amplitude"``, the real ratio of the paper
     reduction: str = "response"
     # Pressure and film under the roughness: ``"solved"``, of the smooth contact, or ``"hertz"``,
@@ -78,12 +79,12 @@ class ModelOptions:
     smooth: str = "solved"
     wavelength_convention: str = "components"  # one of :data:`pyehl.theory.amplitude.CONVENTIONS`
     stiffness: str = "exact"  # ``"exact"``: E'|q|/4; ``"paper"``: eq. 11 with wavelength 2 pi/|q|
-    # Whether the semi-ellipse loses the load that delta p carries inside the contact: a Hertz
-    # contact under the remaining load, p_h and a scaled by its cube root
+    # Whether the load of delta p is subtracted from that of the semi-ellipse: a Hertz contact under
+    # the remaining load, p_h and a scaled by its cube root
     load_balance: bool = False
     # Film below which the fraction of the contact is reported [m]; 0: none
     film_limit: float = 0.0
-    # Positions of the surface over one passage; 0: doubled until mu_r/mu_s is resolved
+    # Number of positions of the surface over one passage; 0: doubled until mu_r/mu_s is resolved
     positions: int = 0
 
     @property
@@ -93,35 +94,34 @@ class ModelOptions:
 
     @property
     def measured(self) -> bool:
-        """Whether the errors of the model were measured of it read so."""
+        """Whether the errors of the model were measured with these options."""
         return self.reduction == "response" and self.smooth == "solved"
 
     @classmethod
     def from_settings(cls, settings: Settings) -> ModelOptions:
-        """From the group ``psd`` of a resolved case."""
+        """Read the group ``psd`` of a resolved case."""
         group = settings["psd"]
         return cls(**{field.name: group[field.name] for field in fields(cls)})
 
 
-# Error of mu_r/mu_s against the full simulation: a part that small waves and tracks make at any
-# ratio, and a part that grows with the increase. Measured in docs/evidence/prediction.
+# Error of mu_r/mu_s against the full simulation: a constant part, due to short waves and tracks,
+# and a part proportional to the increase, measured in docs/evidence/prediction
 CONSTANT = 0.01
 SHARE_OF_INCREASE = 0.07
-# The same where the flow obeys a shear law, which hardly lets the friction increase
+# The same for a flow that obeys a shear law, with which the friction hardly increases
 # (docs/evidence/thinning)
 CONSTANT_THINNING = 0.004
 SHARE_THINNING = 0.1
-# What is added where the contact is narrower than long, times that by which a/b exceeds 1
-# (docs/evidence/ellipse)
+# Additional error of a narrow contact, over a/b - 1 (docs/evidence/ellipse)
 NARROW = 0.025
-# Largest ratio at which it was measured
+# Largest ratio at which the error was measured
 KNOWN_RATIO = 5.0
-# Ellipticities between which it was, and largest one at which film and pressure over roughness were
+# Range of ellipticities in which it was measured, and largest one for film and pressure
 ELLIPTICITY = [0.39, 10.1]
 FILM_ELLIPTICITY = 4.1
-# Velocity ratios between which waves were (docs/evidence/response/slip.csv)
+# Range of velocity ratios of the measured waves (docs/evidence/response/slip.csv)
 VELOCITY_RATIO = [0.5, 1.5]
-# Of the viscosity, by the film of lubricants that thin in the inlet (docs/evidence/thinning)
+# Range of `thinning` in `outside_range` (docs/evidence/thinning)
 THINNING = [0.95, 1.5]
 
 
@@ -129,8 +129,8 @@ def model_error(mu_ratio: float, *, thins: bool = False, ellipticity: float = 1.
     """Error of a predicted mu_r/mu_s [-]; NaN beyond the largest ratio that was measured.
 
     It covers the deviation from the full simulation of this package on 513 x 513 nodes in at least
-    nine of ten cases of docs/evidence/prediction; `thins`, where the flow obeys a shear law, on 257
-    x 257 nodes of docs/evidence/thinning.
+    nine of ten cases of docs/evidence/prediction; `thins`: for a flow that obeys a shear law, on
+    257 x 257 nodes, of docs/evidence/thinning.
     """
     if not mu_ratio <= KNOWN_RATIO:
         return math.nan
@@ -143,10 +143,10 @@ def model_error(mu_ratio: float, *, thins: bool = False, ellipticity: float = 1.
 def why_no_error(
     mu_ratio: float, outside: Sequence[str], options: ModelOptions, *, friction_alone_thins: bool
 ) -> str:
-    """Say why `model_error` is not known of a prediction; '' where it is.
+    """Say why `model_error` is not known for a prediction; '' if it is known.
 
-    `outside`: what lies outside of the range of the response; `friction_alone_thins`: a shear law
-    holds for the friction and not for the flow.
+    `outside`: quantities outside the range of the response; `friction_alone_thins`: a shear law
+    applies to the friction but not to the flow.
     """
     if not math.isfinite(mu_ratio):
         return "there is no mu_ratio"
@@ -168,11 +168,11 @@ def outside_range(
     thinning: float = 1.0,
     widest: float = ELLIPTICITY[1],
 ) -> list[str]:
-    """Names of the numbers that lie outside the range in which the response was measured.
+    """Name the quantities outside the range in which the response was measured.
 
     `moes_m` and `moes_l` of an elliptical contact are those of the circle with the same dry inlet.
-    `thinning`: viscosity at low shear over that of a Newtonian lubricant with as thick a film;
-    `widest`: largest ellipticity, of film and pressure over roughness FILM_ELLIPTICITY.
+    `thinning`: viscosity at low shear over that of a Newtonian lubricant with the same film
+    thickness; `widest`: largest ellipticity, FILM_ELLIPTICITY for film and pressure.
     """
     if options.reduction != "response":
         return []
@@ -195,37 +195,37 @@ def outside_range(
 Components = list[Component]
 
 PIXEL_POINTS = 60
-"""Points per shorter semi-axis at which the shear stress under one surface is taken: the tile is
-finer, and its other pixels are met at other positions. 128 change mu_r/mu_s of Table 1 by less than
-0.1 % (tests/model/test_prediction.py)."""
+"""Points per shorter semi-axis at which the shear stress under one surface is evaluated: the tile
+is finer, and other positions use its other pixels. 128 points change mu_r/mu_s of Table 1 by less
+than 0.1 % (tests/model/test_prediction.py)."""
 GRID_POINTS = 60.5
-"""Points per semi-axis under two; half a one more, so that the next semi-axis has other ones. 90.5
-change mu_r/mu_s of 2.31 by 0.15 %."""
+"""Points per semi-axis under two surfaces; the half shifts the points from one semi-axis to the
+next. 90.5 points change a mu_r/mu_s of 2.31 by 0.15 %."""
 PAPER_STIFFNESS = math.sqrt(2.0)
 """Eq. 11 with wavelength 2 pi/|q| over E'|q|/4 (see `pyehl.prediction`)."""
 
 
 @dataclass(frozen=True)
 class RoughSurface:
-    """A rough tile on the move; its pixel [0, 0] starts at X = front and moves along x."""
+    """A moving rough tile; its pixel [0, 0] starts at X = front and moves along x."""
 
     topography: Topography
     velocity_ratio: float  # velocity over the mean velocity [-]
     front: float = 0.0  # [a]
     filter_kind: str = "sharp"  # how its spectrum is cut
-    groups: tuple[str, ...] = ("surface",)  # of the case that the tile is of
+    groups: tuple[str, ...] = ("surface",)  # groups of the case that define it
 
 
 @dataclass(frozen=True)
 class Model:
-    """One or two rough surfaces in a contact, and how the model is read."""
+    """One or two rough surfaces in a contact, with the options of the model."""
 
     surfaces: tuple[RoughSurface, ...]
     contact: SmoothContact
     operating: AnyContact
     lubricant: Lubricant
     options: ModelOptions
-    mesh: float = 0.0  # mesh size on which the waves leak [a]; 0: as in nature
+    mesh: float = 0.0  # mesh size of the leak of waves [a]; 0: continuous equations
 
     @classmethod
     def of_one(
@@ -238,7 +238,7 @@ class Model:
         velocity_ratio: float,
         mesh: float = 0.0,
     ) -> Model:
-        """Model of one rough surface that begins at the centre."""
+        """Make the model of one rough surface that begins at the centre."""
         rough = RoughSurface(tile, velocity_ratio)
         return cls((rough,), contact, operating, lubricant, options, mesh)
 
@@ -246,7 +246,7 @@ class Model:
     def order(self) -> tuple[int, ...]:
         """Order in which the surfaces are summed, by their numbers.
 
-        The faster one first, else by where it begins, size and heights.
+        The faster one is first; at equal velocities the order follows from front, size and heights.
         """
 
         def key(k: int) -> tuple[float, ...] | tuple[object, ...]:
@@ -264,7 +264,7 @@ class Model:
 
     @cached_property
     def merged(self) -> Model | None:
-        """Two surfaces that move together as one; None for one, or where they do not."""
+        """The model with the sum of two surfaces that move together; None for other surfaces."""
         if len(self.surfaces) == 1:
             return None
         first, second = self.in_order
@@ -276,7 +276,7 @@ class Model:
         one = replace(first, topography=tile or first.topography, groups=groups)
         return None if tile is None else replace(self, surfaces=(one,))
 
-    # from heights to what the contact makes of them
+    # from heights to film and pressure in the contact
 
     def spectrum(self, tile: Topography) -> Spectrum:
         """Components of a tile, in the units of the contact."""
@@ -285,7 +285,7 @@ class Model:
         return Spectrum.of(tile.heights / o.film_scale, *lengths)
 
     def transfers(self, spectra: Sequence[Spectrum]) -> list[Transfer]:
-        """Find what the contact makes of components, in order. InputError where alpha is 0."""
+        """Compute the transfer of components, in order; InputError if alpha is 0."""
         o, options = self.operating, self.options
         if o.moes_l == 0.0:
             raise InputError(
@@ -313,9 +313,9 @@ class Model:
         ]
 
     def components(self, tiles: Sequence[Topography] | None = None) -> Components:
-        """Components of tiles by number, and what becomes of them, in order.
+        """Components of tiles, which are given by number, with their transfers, in order.
 
-        By default those of the surfaces on the grids that are worked on.
+        By default the tiles are those of `grids`.
         """
         tiles = self.grids() if tiles is None else tiles
         spectra = [self.spectrum(tiles[k]) for k in self.order]
@@ -326,7 +326,7 @@ class Model:
         ]
 
     def _shape(self, spectra: Sequence[Spectrum]) -> Ellipse | StripEdge:
-        """Shape of the contact; of a line with all long waves across the motion."""
+        """Shape of the contact; for a line with the wavenumbers of long waves along Y."""
         if not self.operating.ellipse.is_line:
             return self.operating.ellipse
         across = [np.abs(s.qy[long_waves(s, StripEdge.largest)[1]]) for s in spectra]
@@ -337,7 +337,7 @@ class Model:
         return StripEdge(wavenumbers[distinct], width)
 
     def grids(self) -> list[Topography]:
-        """Put the tiles, by number, on grids that resolve the contact, with room for the positions.
+        """Resample the tiles, by number, on grids that resolve the contact and fit the positions.
 
         InputError if that takes too many pixels.
         """
@@ -345,9 +345,9 @@ class Model:
         return [working_grid(one.topography, self.operating, positions) for one in self.surfaces]
 
     def stride_of(self, spectrum: Spectrum, points: float) -> int:
-        """Stride of the pixels that leaves `points` points per shorter semi-axis.
+        """Stride of the pixels with which at least `points` points per shorter semi-axis remain.
 
-        1 in the model of the paper, which takes all of them.
+        1 in the model of the paper, which uses all pixels.
         """
         if self.options.as_in_paper:
             return 1
@@ -363,9 +363,9 @@ class Model:
         powers: Sequence[Array] | None = None,
         tracks: Sequence[float] = (0.0, 0.0),
     ) -> RoughContact | HertzContact:
-        """Contact of components; `powers` of them as the transfers were made for them.
+        """Make the contact of components; `powers` are those for which their transfers hold.
 
-        `tracks`: how far two surfaces are moved across the motion [a].
+        `tracks`: displacements of two surfaces across the motion [a].
         """
         first, of = waves[0], (self.contact, self.operating, self.lubricant)
         if len(waves) > 1:
@@ -384,7 +384,7 @@ class Model:
         return RoughContact.on_pixels(*of, self.pixel_tile(first, PIXEL_POINTS), powers)
 
     def pixel_tile(self, wave: Component, points: float) -> PixelTile:
-        """Give a tile with `points` of its pixels per shorter semi-axis, or more."""
+        """Make a tile with at least `points` of its pixels per shorter semi-axis."""
         stride = self.stride_of(wave.spectrum, points)
         return PixelTile(wave, self.contact.central_film, stride, self.operating)
 
@@ -405,13 +405,13 @@ class Model:
         return RelativePositions(lengths, ratios, (first.front, second.front), radius)
 
     def outside_range(self, widest: float = ELLIPTICITY[1]) -> list[str]:
-        """Name what lies outside the range of the response for one of the surfaces, each once."""
+        """Name the quantities outside the range of the response for any surface, each once."""
         rest = self.options, self.contact.thinning, widest
         result = [outside_range(self.operating, s.velocity_ratio, *rest) for s in self.surfaces]
         return list(dict.fromkeys(name for names in result for name in names))
 
     def without_shorter(self, numbers: Sequence[int], shortest: float) -> Model:
-        """Return the model without waves shorter than a length [m] of the surfaces so numbered."""
+        """Remove waves shorter than a length [m] from the surfaces with these numbers."""
         cut = (
             replace(one, topography=filtered(one.topography, shortest, kind=one.filter_kind))
             if k in numbers
@@ -423,7 +423,7 @@ class Model:
     def responses(self, waves: Components | None = None) -> list[Response]:
         """Pressure [Pa] and deformed roughness [m] of each at the centre, by number, on its pixels.
 
-        By the components that were worked with, if they have these pixels.
+        From the components `waves` if these have the same pixels.
         """
         o = self.operating
         return [
@@ -440,7 +440,7 @@ class Model:
         return np.asarray(spectrum.tile(left) * self.operating.film_scale)
 
     def _on_pixels(self, waves: Components | None) -> list[tuple[Spectrum, Transfer, float]]:
-        """Components of the tiles as they are, and velocity ratios, by number."""
+        """Components of the tiles on their own pixels, and velocity ratios, by number."""
         tiles = [one.topography for one in self.in_order]
         if waves and [w.spectrum.shape for w in waves] == [tile.shape for tile in tiles]:
             result = [(w.spectrum, w.transfer) for w in waves]

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Film and pressure waves of a moving rough tile on the points of a contact, by linear response.
 
-The tile is taken apart into plane waves; each becomes a driven wave, which moves with the
-roughness, and a free wave, made in the inlet and convected at the mean velocity
-(:mod:`pyehl.theory.response`). Both change slowly on their way, so that they are made at a few
-stations along the motion and interpolated; the free wave also on a few lines beside the centre
-line. Waves longer than half the contact radius depend on the edge of the contact
-(:mod:`pyehl.theory.disc`), and they move it: the contact is wider where their pressure is positive
-and narrower where it is negative. Lengths along the surface are scaled by a, films by a^2/R,
-pressures by p_h.
+The tile is decomposed into plane waves. Each causes a driven wave, which moves with the roughness,
+and a free wave, which arises in the inlet and is convected at the mean velocity
+(:mod:`pyehl.theory.response`). Both change slowly along the motion, so that they are computed at a
+few stations and interpolated; the free wave also on a few lines off the centre line. Waves longer
+than half the contact radius depend on the edge of the contact (:mod:`pyehl.theory.disc`), and they
+displace it: the contact is wider where their pressure is positive and narrower where it is
+negative. Lengths along the surface are scaled by a, films by a^2/R, pressures by p_h.
 """
 
 from __future__ import annotations
@@ -48,7 +47,7 @@ EDGE_RADIUS = 0.85
 
 
 def long_waves(spectrum: Spectrum, largest: float) -> tuple[Indices, Indices]:
-    """Rows and columns of the components with |q| up to a largest one [1/a] that count."""
+    """Rows and columns of the nonzero components with |q| below a largest one [1/a]."""
     strong = np.abs(spectrum.values) > 1e-9 * np.abs(spectrum.values).max()
     i, j = np.nonzero((spectrum.q > 0.0) & (spectrum.q < largest) & strong)
     return i, j
@@ -82,9 +81,9 @@ class Edge:
         velocity_ratio: float,
         shape: Ellipse | StripEdge,
     ) -> Edge:
-        """Make it for a moving tile, from its deformed components."""
+        """Compute the effect for a moving tile, from its deformed components."""
         flattened = 1.0 - transfer.at_centre(spectrum, velocity_ratio)
-        # change on lines beside the centre line of an ellipse (lines, ...)
+        # change on the lines off the centre line of an ellipse (lines, ...)
         beside = transfer.beside(spectrum.qx, velocity_ratio)
         if isinstance(shape, StripEdge):
             i, j = long_waves(spectrum, shape.largest)
@@ -125,7 +124,7 @@ class Edge:
         return Edge(self.qx[keep], self.qy[keep], *parts, self.shape)
 
     def at(self, shift: float, track: float) -> tuple[Array, Array]:
-        """Coefficients (n,) and how far the edge is moved outwards at EDGE_ANGLES (k,).
+        """Coefficients (n,) and outward displacement of the edge at EDGE_ANGLES (k,).
 
         For a tile moved along and across the motion [a].
         """
@@ -133,7 +132,7 @@ class Edge:
         return (self.coefficients @ phase).real, (self.displacement @ phase).real
 
     def polynomials(self, x: Array, y: Array) -> Array:
-        """Polynomials (n, ...) at places by the semi-axes, held constant near the edge."""
+        """Polynomials (n, ...) at x/a and y/b, held constant near the edge."""
         assert not isinstance(self.shape, StripEdge)
         ellipse = None if self.shape.radius_ratio == 1.0 else ellipse_edge(self.shape)
         held = np.minimum(
@@ -154,18 +153,18 @@ REFINEMENT = 4
 
 @dataclass(frozen=True, slots=True)
 class WaveTiles:
-    """Film (less by) and pressure (more by) of driven and free waves as tiles, single precision.
+    """Film reduction and pressure increase by driven and free waves as tiles, single precision.
 
-    On lines of their own in place of the columns of the tile the driven waves are as fine as the
-    free ones.
+    With given lines in place of the columns of the tile, the driven waves are refined as the free
+    ones.
     """
 
     driven: Single  # over station (n, nx, ny/stride, 2): film, pressure
     free: Single | None  # the same (n, REFINEMENT nx, ny/stride, 2); None without free waves
-    # What is added to the free waves beside the centre line, over line, as waves along the motion
-    # (n, 2, ny/stride, nx//2 + 1); None without free waves
+    # Difference of the free waves on each line from those on the centre line, as waves along the
+    # motion (n, 2, ny/stride, nx//2 + 1); None without free waves
     off_centre: Narrow | None
-    stride: int  # every stride-th column of the tile is there
+    stride: int  # of the columns of the tile
     bent: bool  # as in :class:`Transfer`
 
     @classmethod
@@ -188,7 +187,7 @@ class WaveTiles:
         k_free = (free_stiffness(qx, qy, velocity_ratio) * gain).astype(np.float32)
         narrow = spectrum.single()
         across = None if lines is None else narrow.on_lines(lines)
-        # a linear interpolation between the points dims a wave by this on average
+        # correction of the mean loss of amplitude by linear interpolation between the points
         step = spectrum.qx * (np.pi / REFINEMENT / spectrum.qx[-1])
         bright = (1.0 / (1.0 - np.square(step) / 12.0)).astype(np.float32)[:, np.newaxis]
 
@@ -237,9 +236,10 @@ class WaveTiles:
     def beside(
         self, columns: NDArray[np.int32], line: NDArray[np.int32], part: Single
     ) -> Single | None:
-        """Free waves that are added on columns beside the centre line (REFINEMENT nx, n, 2).
+        """Additional free waves on columns off the centre line (REFINEMENT nx, n, 2).
 
-        Parts (2, n) of lines off the centre and of those after them. None without free waves.
+        `part` (2, n) are the weights of the lines `line` and of the next ones. None without free
+        waves.
         """
         if self.free is None:
             return None
@@ -253,12 +253,13 @@ class WaveTiles:
 
 
 Position = tuple[float, float]
-"""Of one tile: the pixels by which it has moved along and across the motion; of two: the ways by
-which both have moved along it [a]."""
+"""For one tile: its displacements along and across the motion [pixels]; for two: the displacements
+of both along the motion [a]."""
 
 REACH = 1.0
-"""Friction is taken within this distance from the centre [semi-axes]: in the dry contact, outside
-of which the viscosity is hardly raised. 0.95 and 1.05 change mu_r/mu_s of Table 1 by 0.02 %."""
+"""Friction is integrated within this distance from the centre [semi-axes]: in the dry contact,
+outside of which the viscosity hardly increases. 0.95 and 1.05 change mu_r/mu_s of Table 1 by 0.02
+%."""
 
 
 @dataclass(frozen=True)
@@ -280,18 +281,18 @@ class Component:
 
 
 def station_weights(x: Array) -> Array:
-    """Weights (..., n) of the stations in the waves at places X [a]."""
+    """Weights (..., n) of the stations in the waves at X [a]."""
     return np.stack([np.interp(x, STATIONS, unit) for unit in np.eye(STATIONS.size)], axis=-1)
 
 
 def line_weights(y: Array) -> Array:
-    """Weights (n, lines) of LINES but the centre line in the free wave at places Y [semi-axis]."""
+    """Weights (n, lines) of LINES without the centre line in the free wave at Y [semi-axis]."""
     lines = np.delete(np.eye(LINES.size), AXIS, 0)
     return np.stack([np.interp(y, LINES, unit) for unit in lines], axis=-1)
 
 
 def two_lines(y: Array) -> tuple[NDArray[np.int32], Single]:
-    """`line_weights` at places Y (n,): the first of two lines after each other, weights (2, n)."""
+    """`line_weights` at Y (n,) as the first of two successive lines and two weights (2, n)."""
     weights = line_weights(y)
     first = np.minimum(np.argmax(weights > 0.0, axis=1), weights.shape[1] - 2)
     both = np.stack([np.take_along_axis(weights, (first + k)[:, np.newaxis], 1) for k in (0, 1)])
@@ -308,7 +309,7 @@ def slipped(x: Array, y: Array, velocity_ratio: float, *, bent: bool) -> Array:
 
 
 def _steps(reach: float, pixel: float, pixels: int, stride: int) -> NDArray[np.int32]:
-    """Every `stride`-th pixel within a reach [a]; of a line, which has none across, of the tile."""
+    """Every `stride`-th pixel within a reach [a]; if it is infinite, of the whole tile."""
     if math.isinf(reach):
         return np.arange(0, pixels, stride, dtype=np.int32)
     n = int(reach / (stride * pixel))
@@ -338,18 +339,18 @@ class PixelTile:
             for index, p in zip((self.rows, self.columns), self.pixel, strict=True)
         )
         self.across = self.y / operating.ellipse.ellipticity
-        # the free wave is that of the roughness where it was when the inlet made it; without a bend
-        # it is so on all lines
+        # the free wave follows from the roughness that was in the inlet when it arose; without a
+        # bend the slip since then is the same on all lines
         lines = self.across if transfer.bent else np.zeros(1)
         way = slipped(self.x[:, np.newaxis], lines, ratio, bent=transfer.bent)
         place = (self.x[:, np.newaxis] + way) / self.pixel[0] * REFINEMENT
         self.free_rows = np.floor(place).astype(np.int32)
         self.between = (place - self.free_rows).astype(np.float32)
-        # free waves beside the centre line on the last track
+        # additional free waves off the centre line, for the last track
         self.beside: dict[int, Single | None] = {}
 
     def add(self, contact: RoughContact, position: Position, total: Single) -> None:
-        """Add loss of film, gain of pressure (m, n, 2); the track is a multiple of the stride."""
+        """Add film reduction and pressure increase (m, n, 2); track: a multiple of the stride."""
         shift, track = (int(pixels) for pixels in position)
         waves = self.waves
         columns = (self.columns - track) // self.stride % waves.driven.shape[2]
@@ -368,7 +369,7 @@ class PixelTile:
 
 
 class LineTile:
-    """A tile on lines of the contact: the one of two with a `number`, on its own track [a]."""
+    """One of two tiles, with its `number`, on lines of the contact and its own track [a]."""
 
     def __init__(
         self,
@@ -392,13 +393,13 @@ class LineTile:
         self.free_places = self.places + slipped(self.places, lines, ratio, bent=bent)
 
     def _rows(self, places: Array) -> tuple[NDArray[np.int32], Single]:
-        """Row of the waves before places [a], and the weight of the next one."""
+        """Row of the waves before positions [a], and the weight of the next row."""
         at = places * self.scale
         low = np.floor(at)
         return low.astype(np.int32), (at - low).astype(np.float32)
 
     def add(self, contact: RoughContact, position: Position, total: Single) -> None:
-        """Add loss of film and gain of pressure."""
+        """Add film reduction and pressure increase."""
         shift = position[self.number]
         (rows, between), free = (self._rows(p - shift) for p in (self.places, self.free_places))
         extension.surface_functions.waves_between(

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The prediction of a resolved case: its cost, the case itself, and the case with other spectra.
 
-Ra and Rq do not determine a spectrum. Where one of them or a finish is given, the case is also
+Ra and Rq do not determine a spectrum. If one of them or a finish is given, the case is also
 predicted with other roll-offs.
 """
 
@@ -60,7 +60,7 @@ LENGTHS = (30e-6, 100e-6, 0.0)
 
 
 def spectrum_assumed(group: Mapping[str, Any]) -> bool:
-    """Whether a group of a case gives Ra, Rq or a finish, and its spectrum is no measured one."""
+    """Whether a group of a case gives Ra, Rq or a finish, so that its spectrum is assumed."""
     if group.get("kind") != "fractal":
         return False
     named = str(group.get("finish", "none")) != "none"
@@ -75,7 +75,7 @@ def other_spectra_count(groups: Mapping[str, Any], names: Sequence[str]) -> int:
 def other_spectra(
     settings: Settings, groups: Sequence[str], predict: Callable[[Settings], "Prediction"]
 ) -> list[dict[str, Any]]:
-    """Predict the case with other roll-offs, of all surfaces whose spectrum is assumed."""
+    """Predict the case with other roll-offs for all surfaces whose spectrum is assumed."""
     changed = [name for name in groups if spectrum_assumed(settings[name])]
     if not changed:
         return []
@@ -103,44 +103,45 @@ def other_spectra(
 LOG = logging.getLogger(__name__)
 
 PER_PIXEL = 1.5e-5
-"""Seconds per pixel of the tile that is worked on, of one core of 2020, to a factor of two."""
+"""Seconds per pixel of the resampled tile, on one core of 2020, to a factor of two."""
 PER_POINT = 1e-4
-"""And per point of the contact."""
+"""The same per point of the contact."""
 REPORTED = 10.0
-"""Seconds above which they are reported."""
+"""Time above which it is reported [s]."""
 BRIEF = 0.36
-"""Share of the time that a prediction without tracks and bands takes, as those with other spectra
-are that stand beside one with a finish: 0.3 to 0.4 with cases/finish.nml and a gear flank."""
+"""Time of a prediction without tracks and bands, as for other spectra, over that with them: 0.3 to
+0.4 with cases/finish.nml and a gear flank."""
 SMALL = 0.02
-"""Contacts along each side of a map that has to be repeated very often."""
+"""Length of a map over that of the contact below which a warning states that the map repeats
+often."""
 ENOUGH = 3.0
-"""Contacts, along each side, of a part that is offered in place of a larger map."""
+"""Length of a part that is suggested in place of a larger map, over that of the contact."""
 
 
 def seconds_of(tile: Topography, operating: AnyContact) -> float:
-    """Seconds that the prediction of a tile takes, to a factor of two."""
+    """Time of the prediction of a tile [s], to a factor of two."""
     a = operating.hertz_radius
     sides = list(zip(tile.shape, tile.size, (a, a * operating.ellipse.side), strict=True))
     pixels = math.prod(max(n, size / a * WORKING_PIXELS) for n, size, a in sides)
-    # points in the contact, no fewer than tiles across the motion
+    # points in the contact, at least as many as tiles across the motion
     area = operating.dry_area * (tile.length_y if operating.ellipse.is_line else 1.0)
     points = area / min(a / PIXEL_POINTS, *tile.size) ** 2
     return PER_PIXEL * pixels + PER_POINT * points
 
 
 def report_cost(
-    tile: Topography, operating: AnyContact, group: str = "surface", beside: int = 0
+    tile: Topography, operating: AnyContact, group: str = "surface", others: int = 0
 ) -> None:
-    """Describe the time for a large tile, and which part of its map is enough.
+    """Describe the time for a large tile, and suggest a sufficient part of its map.
 
-    `other_spectra` is the number of brief predictions of other spectra.
+    `others`: number of brief predictions with other spectra.
     """
-    seconds = seconds_of(tile, operating) * (1.0 + BRIEF * beside)
+    seconds = seconds_of(tile, operating) * (1.0 + BRIEF * others)
     if seconds < REPORTED:
         return
     made = tile.preparation
     images = 2 if made is not None and made.options.edges == "mirror" else 1
-    # as it lies in the contact: along the motion, across it
+    # over the length and the width of the contact
     own = [size / images for size in tile.size]
     contacts = [size / (2.0 * a) for size, a in zip(own, operating.semi_axes, strict=True)]
     text = (
@@ -153,7 +154,7 @@ def report_cost(
     elif max(contacts) < SMALL:
         text += (
             f"; the map is {lengths.size(own[0], own[1], 3)} and the contact "
-            f"{lengths.length(2.0 * operating.hertz_radius, 2)} long: a larger map takes less"
+            f"{lengths.length(2.0 * operating.hertz_radius, 2)} long: a larger map takes less time"
         )
     LOG.info(text)
 
@@ -161,7 +162,7 @@ def report_cost(
 def _part(
     tile: Topography, operating: AnyContact, own: list[float], seconds: float, group: str
 ) -> str:
-    """Offer the middle of a map as read, where it was not turned."""
+    """Suggest the middle of a map as read, unless it was rotated."""
     made = tile.preparation
     if made is None or made.options.rotate % 360.0 != 0.0:
         return ""
@@ -182,7 +183,7 @@ def _part(
 
 
 def _time(seconds: float) -> str:
-    """Seconds, minutes or hours, to a digit."""
+    """Format a time in seconds, minutes or hours, to one digit."""
     for unit, size in (("h", 3600.0), ("min", 60.0)):
         if seconds >= 2.0 * size:
             return f"{float(f'{seconds / size:.1g}'):g} {unit}"
@@ -190,7 +191,7 @@ def _time(seconds: float) -> str:
 
 
 def unpredictable(settings: Settings) -> str:
-    """Say why nothing is predicted of a resolved case; '' where something is."""
+    """Say why a resolved case has no prediction; '' if it has one."""
     if turned(settings):
         return turned(settings)
     groups = rough_groups(settings)
@@ -208,7 +209,7 @@ def unpredictable(settings: Settings) -> str:
 
 
 def turned(settings: Settings) -> str:
-    """Say why an ellipse has no response; '' where an axis lies along the motion."""
+    """Say why an ellipse has no response; '' if an axis lies along the motion."""
     angle = float(settings["contact"].get("angle", 0.0))
     if angle == 0.0 or contact_of(settings).radius_ratio == 1.0:
         return ""
@@ -220,7 +221,7 @@ def turned(settings: Settings) -> str:
 
 
 MAX_TRACKS = 10_000
-"""The error of the mean over as many is a hundredth of the spread."""
+"""Maximum number of tracks: the error of their mean is a hundredth of the spread."""
 
 
 @blas.one_thread()
@@ -234,14 +235,13 @@ def predict(
     second_surface: surfaces.Topography | None = None,
     brief: bool = False,
 ) -> Prediction:
-    """Predict the relative friction of a resolved case, `text` being the same as namelist text.
+    """Predict the relative friction of a resolved case, also given as namelist `text`.
 
     `tracks` across the surface, 1 to `MAX_TRACKS`, are for mean and spread; `smooth` is a result
-    folder with the smooth contact, in place of a solution on the spot; `surface` and
-    `second_surface` are surfaces before their spectrum is cut and off their track, by default made
-    as the case states. `brief`:
-    mu_r/mu_s and its errors, bit for bit the same, but no tracks, of the bands the shortest alone,
-    and no search for a cut-off with which there is a ratio.
+    folder with the smooth contact, otherwise it is solved; `surface` and `second_surface` are
+    surfaces before their spectrum is cut and before they are moved to their track, by default those
+    of the case. `brief`: mu_r/mu_s and its errors, bit for bit the same, but no tracks, only the
+    band of the shortest waves, and no search for a cut-off with which there is a ratio.
 
     InputError if the surface is smooth or a single feature, a map is not usable, the conditions
     are outside the model, or there are too many tracks; OSError if a map cannot be opened.
@@ -259,7 +259,7 @@ def predict(
     given = {"surface": surface, "second_surface": second_surface}
     rough = _surfaces(settings, given, operating, film * operating.film_scale, brief=brief)
     model = Model(rough, contact, operating, lubricant, options)
-    # a strip is in the contact with all its tracks
+    # all tracks of a strip pass through the contact at once
     tracks = 0 if brief or operating.ellipse.is_line else tracks
     waves = None if model.merged else model.components()
     outcome = run(model, tracks, brief=brief, waves=waves)
@@ -269,7 +269,7 @@ def predict(
     sustained = sustained_by(model)
     below, together = _below(model, outcome.friction, sustained)
     if outcome.friction.status == "predicted" and below.deepest <= 0.0:
-        # no position of the passage has shown it
+        # a breakdown between the positions of the passage
         outcome = Outcome(broken(outcome.friction, below.deepest))
     ended = outcome.friction.status == "film breakdown"
     mixed = mixed_film(model, waves or [], settings, films)
@@ -309,9 +309,9 @@ def _surfaces(
     *,
     brief: bool,
 ) -> tuple[RoughSurface, ...]:
-    """Make the rough surfaces of a resolved case, whose film is h_c [m]."""
+    """Make the rough surfaces of a resolved case with a film h_c [m]."""
     rough, groups = [], surfaces.rough_groups(settings)
-    beside = 0 if any(given.values()) else other_spectra_count(settings, groups)
+    others = 0 if any(given.values()) else other_spectra_count(settings, groups)
     for group in groups:
         values = settings[group]
         tile = given[group]
@@ -320,7 +320,7 @@ def _surfaces(
         else:
             tile = surfaces.finished(tile, values)
         if not brief:
-            report_cost(tile, operating, group, beside)
+            report_cost(tile, operating, group, others)
         ratio, front = float(values["velocity_ratio"]), float(values["x_start"])
         rough.append(RoughSurface(tile, ratio, front, str(values["filter"]), (group,)))
     return tuple(rough)
@@ -329,7 +329,7 @@ def _surfaces(
 def _below(
     model: Model, friction: RoughFriction, sustained: Sustained
 ) -> tuple[BelowZero, Together | None]:
-    """Find where the film ends, and the sum of two surfaces where they move together."""
+    """Find where the film breaks down, and the sum of two surfaces that move together."""
     below = of_model(model, [response.deformed for response in friction.responses], sustained)
     if len(model.surfaces) == 1:
         return below, None
@@ -344,7 +344,7 @@ def _below(
 def _spike_removal(
     settings: Mapping[str, Mapping[str, Any]], model: Model
 ) -> Callable[[float], surfaces.Topography] | None:
-    """Give a function that removes the spikes of one map beyond a threshold."""
+    """Give a function that removes the spikes of a map above a threshold."""
     if len(model.surfaces) > 1:
         return None
     (one,) = model.surfaces
@@ -353,7 +353,7 @@ def _spike_removal(
 
 
 def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> ModelOptions:
-    """How the model is read; InputError where nothing is predicted of the case."""
+    """Read the options of the model; InputError if the case has no prediction."""
     if not 1 <= tracks <= MAX_TRACKS:
         raise InputError(
             f"tracks = {tracks}: expected 1 to {MAX_TRACKS}; the mean over {MAX_TRACKS} has an "
@@ -389,7 +389,7 @@ def _contact(
     options: ModelOptions,
     folder: str | os.PathLike[str] | None,
 ) -> SmoothContact:
-    """Pressure and film under the roughness, of a result folder if there is one."""
+    """Pressure and film under the roughness, from a result folder if one is given."""
     if folder is not None:
         contact = read_contact(Path(folder), operating, settings)
         if lubricant.shear.in_flow:

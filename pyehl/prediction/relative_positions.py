@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The positions of one or two rough tiles as they pass a contact, and means over them.
 
-One tile is back at its start after its length. Two move each at its own speed: where they are back
-after a few passages, the friction is that of this common period: a line over all pairs of
-positions. Else they come into all relative positions in the course of time, and a lattice of points
-over these takes the mean: positions k/n of the one and m k/n of the other tile, k = 0 ... n - 1,
-with n = m^2 - 1. As m^2 is 1 modulo n, it is the same for either order of the two.
+The positions of one tile repeat after its length. Two tiles move at different speeds. If their
+positions repeat after a few passages, friction is averaged over this common period: a line in the
+plane of all pairs of positions. Otherwise all relative positions occur in the course of time, and
+the mean is taken over a lattice: positions k/n of one and m k/n of the other tile, k = 0 ... n - 1,
+with n = m^2 - 1. Because m^2 is 1 modulo n, the lattice is the same for either order of the two.
 """
 
 import math
@@ -23,57 +23,58 @@ from pyehl.surfaces.pair import SAME
 from pyehl.types import Array
 
 Friction = Callable[[Position], float]
-"""mu_r/mu_s in a position."""
+"""mu_r/mu_s at a position."""
 
 POSITION_TOLERANCE = 2e-3
-"""Error that half of the positions may make (relative) for no more to be added: a fifth of the
-smallest error of the model (:data:`pyehl.prediction.model.CONSTANT`)."""
+"""Relative error of half of the positions below which no more are added: a fifth of the smallest
+error of the model (:data:`pyehl.prediction.model.CONSTANT`)."""
 EXTREMES = 32
-"""Positions at which minimum film and maximum increase of the pressure are looked for: at twice as
-many they differ by 1 % at most (docs/evidence/thinning)."""
+"""Number of positions for minimum film and maximum pressure increase: with twice as many these
+differ by at most 1 % (docs/evidence/thinning)."""
 
 MAX_PASSAGES = 12
-"""Maximum number of passages of a tile in a common period that is used: products of waves with a
-mean over a longer one are of that order."""
+"""Maximum number of passages of a tile in a common period: over a longer one only products of waves
+of that order have a mean."""
 LATTICES = (9, 13, 19, 27)
-"""m of the lattices of a mean over all positions, the next one where one is not enough: each has
-about twice as many positions as the one before."""
+"""m of successive lattices for a mean over all positions, each with about twice as many positions
+as the one before."""
 SHORT_LATTICE = 7
-"""m of the lattice of a mean over a few positions: in 48 of them no product of waves, up to the
-third of each of the two tiles, has a mean."""
+"""m of the lattice for a mean over a few positions: over its 48 positions no product of waves, up
+to the third of each of the two tiles, has a mean."""
 PER_PASSAGE = 16
-"""Positions per passage of a mean over a few of them along a line, the first number of one over
-all: half and twice as many change mu_r/mu_s of two fractal surfaces by 0.06 % at most."""
+"""Number of positions per passage in a common period, for a mean over a few positions and initially
+for the full mean: half and twice as many change mu_r/mu_s of two fractal surfaces by at most 0.06
+%."""
 
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """mu_r/mu_s in all positions of a passage."""
+    """mu_r/mu_s at all positions of a passage."""
 
-    shifts: tuple[Array, ...]  # how far each tile has moved (n,) [m]
+    shifts: tuple[Array, ...]  # displacement of each tile (n,) [m]
     ratios: Array  # (n,)
-    # Error of the mean over half of the positions, relative to it; NaN: not known
+    # Relative error of the mean over half of the positions; NaN: not known
     undecided: float
-    periodic: bool = True  # whether the positions follow each other and return to the first
+    periodic: bool = True  # whether the positions are successive and periodic
 
 
 @dataclass(frozen=True, slots=True)
 class TilePositions:
-    """The positions of one tile: whole pixels over its length."""
+    """Positions of one tile, displaced by whole pixels over its length."""
 
     pixels: int
     pixel: float  # [m]
 
     def short_mean(self, friction: Friction, track: int = 0) -> float:
-        """Mean of mu_r/mu_s over a few positions, on a track some pixels beside the first."""
+        """Mean of mu_r/mu_s over a few positions, on a track displaced by some pixels."""
         steps = np.arange(FIRST_POSITIONS) * (self.pixels // FIRST_POSITIONS)
         return float(np.mean([friction((int(step), track)) for step in steps]))
 
     def passage(self, friction: Friction, positions: int, largest: float) -> Passage:
         """Give mu_r/mu_s at equally spaced positions over the length of the tile.
 
-        `positions` is their number; 0: as many as the tolerance needs, no more for a mean above
-        `largest`.
+        `positions` is their number; 0: as many as the tolerance requires, without refinement if the
+        mean is above `largest`.
         """
         n, error = positions or FIRST_POSITIONS, math.nan
         steps = np.arange(n) * (self.pixels // n)
@@ -91,7 +92,7 @@ class TilePositions:
         return Passage((np.asarray(steps * self.pixel, dtype=float),), ratios, error)
 
     def _find_extremes(self, friction: Friction, n: int) -> None:
-        """Visit as many positions as the extremes need between those that the friction needed."""
+        """Evaluate positions between the `n` of the friction, as many as the extremes require."""
         spacing = self.pixels // n
         between = max(1, EXTREMES // n)
         while spacing % between:
@@ -102,11 +103,10 @@ class TilePositions:
 
     @staticmethod
     def _undecided(ratios: Array) -> float:
-        """Return the error of half of the positions at the others, relative to the mean.
+        """Return the error of an interpolation from every second position, relative to the mean.
 
-        The interpolant through every second value against the values between: an upper estimate of
-        the error by all of them, since the interpolant converges faster than any power. NaN
-        for an odd number.
+        It is an upper estimate of the error with all positions, since the interpolant converges
+        faster than any power. NaN for an odd number.
         """
         if ratios.size % 2:
             return math.nan
@@ -117,7 +117,7 @@ class TilePositions:
 def common_passages(
     lengths: tuple[float, float], velocity_ratios: tuple[float, float]
 ) -> tuple[int, int] | None:
-    """Numbers of passages after which two tiles of these lengths are back; None: of no few."""
+    """Numbers of passages of two tiles in their common period; None: it is too long."""
     one, other = (u / length for u, length in zip(velocity_ratios, lengths, strict=True))
     if one == 0.0 or other == 0.0:
         return int(one > 0.0), int(other > 0.0)
@@ -130,7 +130,7 @@ def common_passages(
 
 @dataclass(frozen=True)
 class RelativePositions:
-    """The positions of two tiles: their lengths [a], velocity ratios, and where they begin [a]."""
+    """Positions of two tiles from their lengths [a], velocity ratios and initial fronts [a]."""
 
     lengths: tuple[float, float]
     velocity_ratios: tuple[float, float]
@@ -139,13 +139,13 @@ class RelativePositions:
 
     @cached_property
     def passages(self) -> tuple[int, int] | None:
-        """Passages of both in their common period; None: they meet in all positions."""
+        """Numbers of passages in the common period; None: all relative positions occur."""
         return common_passages(self.lengths, self.velocity_ratios)
 
     def moved(self, k: int, n: int, m: int = 0) -> tuple[float, float]:
-        """How far the tiles have moved at the k-th of n positions [a].
+        """Displacements of the tiles at the k-th of n positions [a].
 
-        Of the common period, or of the lattice of `m`, where it is that within a tile.
+        In the common period, or on the lattice of `m`, then within the length of a tile.
         """
         one, other = self.lengths
         if self.passages:
@@ -153,18 +153,18 @@ class RelativePositions:
         return one * k / n, other * (m * k % n) / n
 
     def shifts(self, k: int, n: int, m: int = 0) -> tuple[float, float]:
-        """Where the tiles begin at the k-th of n positions [a], as `moved`."""
+        """Fronts of the tiles at the k-th of n positions [a], arguments as for `moved`."""
         first, second = self.moved(k, n, m)
         return self.fronts[0] + first, self.fronts[1] + second
 
     def short_mean(self, friction: Friction, track: int = 0) -> float:
-        """Mean of mu_r/mu_s over a few positions; the tracks are those of the contact."""
+        """Mean of mu_r/mu_s over a few positions; the contact defines the tracks."""
         passages = self.passages
         n = PER_PASSAGE * max(passages) if passages else SHORT_LATTICE**2 - 1
         return float(np.mean([friction(self.shifts(k, n, SHORT_LATTICE)) for k in range(n)]))
 
     def passage(self, friction: Friction, positions: int, largest: float) -> Passage:
-        """Give mu_r/mu_s over the common period; of a lattice in the next larger number."""
+        """Give mu_r/mu_s over the common period, or on the lattice with the next larger number."""
         n, m, ratios, error = (
             self._along(friction, positions, largest)
             if self.passages
@@ -207,9 +207,9 @@ class RelativePositions:
 
 
 def _undecided(ratios: Array) -> float:
-    """Return the error of the mean over every second position, relative to it.
+    """Return the relative error of the mean over every second position.
 
-    An upper estimate of the error by all of them. NaN where there are not twice as many.
+    It is an upper estimate of the error with all positions. NaN for an odd number.
     """
     if ratios.size % 2:
         return math.nan

@@ -5,15 +5,15 @@ Units: lengths along the surface by a, heights by a^2/R, pressures by p_h.
 
 Pressure of second order in the roughness
 -----------------------------------------
-A column of lubricant keeps its mass rho(P) (H - t) during its passage. For a pressure
-P1 and a loss of film t1 of first order, with c = d ln rho/dP, r = (d^2 rho/dP^2)/rho and C = K H c,
-the pressure of second order that keeps it is
+A column of lubricant keeps its mass rho(P) (H - t) during its passage. For a pressure P1 and a film
+reduction t1 of first order, with c = d ln rho/dP, r = (d^2 rho/dP^2)/rho and C = K H c, the
+pressure of second order that conserves the mass is
 
     P2 = K/(1 + C) (c P1 t1 - r/2 H P1^2),
 
-K/(1 + C) taken wave by wave: the products hold sums and differences of the wavenumbers. No constant
-in it is fitted. In place of the convolution the friction takes P2 = gamma (P1^2 - s^2) point by
-point; s^2 is the variance of P1 and
+with K/(1 + C) applied wave by wave: the products have the sums and differences of the wavenumbers.
+No constant is fitted. For the friction the convolution is replaced by P2 = gamma (P1^2 - s^2) at
+each point; s^2 is the variance of P1 and
 
     gamma s^4 = sum over all pairs of waves of K/(1 + C) at q + q' and q - q', times
                 (c <P1 t1>' - r/2 H <P1^2>') <P1^2> of the two.
@@ -21,16 +21,16 @@ point; s^2 is the variance of P1 and
 For Gaussian P1 the mean of P2 exp(b P1), and with it the friction, is then that of the convolution
 for every b.
 
-The second-order contribution of the inlet was not derived but measured, in the fields of
-simulations (docs/evidence/fields). It is convected at the mean velocity, as the free wave is: a
-pressure INLET_PRESSURE P0^2, P0 the pressure of first order that the waves would have where they
-are if they had not slipped since the inlet. With slip P0 is less and less like P1: only its part
-along P1^2, (<P0 P1>/s^2)^2 INLET_PRESSURE, is added to gamma. And the film regains INLET_FILM
-t1^2/H of its loss t1. So it is nearly H exp(-t1/H), which it follows where the loss is most of the
-film, too (docs/evidence/thin_film): :func:`film_left`.
+The second-order contribution of the inlet is not derived but measured in the fields of simulations
+(docs/evidence/fields). It is convected at the mean velocity like the free wave: a pressure
+INLET_PRESSURE P0^2, where P0 is the first-order pressure that the waves would have at their
+position without slip since the inlet. With slip P0 is less correlated with P1: only its part along
+P1^2, (<P0 P1>/s^2)^2 INLET_PRESSURE, is added to gamma. The film reduction t1 is smaller by
+INLET_FILM t1^2/H. So the film is nearly H exp(-t1/H), also for reductions of most of the film
+(docs/evidence/thin_film): :func:`film_left`.
 
-Of two rough surfaces P1 holds the waves of both, and the sum the pairs of one wave of
-each, too: they meet in all positions, so that no product of two has a mean.
+For two rough surfaces P1 contains the waves of both, and the sum also the pairs of one wave of
+each; all relative positions occur, so that no such product has a mean.
 """
 
 from __future__ import annotations
@@ -55,40 +55,41 @@ from pyehl.theory.transport import (
 from pyehl.types import Array, Complex, Indices
 
 INLET_PRESSURE = 0.5
-"""Pressure of second order by the inlet, over the square of that of first order [1/p_h]."""
+"""Second-order pressure from the inlet, over the square of the first-order one [1/p_h]."""
 INLET_FILM = 0.4
-"""Film of second order by the inlet, over the square of the loss of first order, both over the
-smooth film [-]."""
+"""Second-order film from the inlet, over the square of the first-order film reduction, both over
+the smooth film [-]."""
 
 FILM_ENDS = 1.6
-"""Loss of first order over the smooth film at which no full film is predicted [-]: films hold at
-1.2 and 1.35, and fine grids have none at 1.8 (docs/evidence/thin_film)."""
+"""First-order film reduction over the smooth film above which no full film is predicted [-]: in
+simulations the film is full at 1.2 and 1.35, and on fine grids not at 1.8
+(docs/evidence/thin_film)."""
 
-# Loss over the film up to which the film of second order is taken; beyond it falls as an
-# exponential that continues from there
+# Film reduction over the film up to which the second-order film is used; beyond it the film
+# continues as an exponential
 QUADRATIC = 0.6
 _LEFT = 1.0 - QUADRATIC + INLET_FILM * QUADRATIC**2
 _RATE = (1.0 - 2.0 * INLET_FILM * QUADRATIC) / _LEFT
 
-# How often the table of the response is coarsened for the pairs of its waves: once, in place of
-# twice, changes mu_r/mu_s of Table 1 by 0.01 % and takes 16 times as long
+# Number of coarsenings of the table of the response for the pairs of its waves: 1 in place of 2
+# changes mu_r/mu_s of Table 1 by 0.01 % and takes 16 times as long
 COARSER = 2
 
 
 def film_left(loss: Array) -> Array:
-    """Film over the smooth one after a loss of first order, over the smooth film [-]."""
+    """Film over the smooth film, from the first-order film reduction over it [-]."""
     near = np.minimum(loss, QUADRATIC)
     left = np.asarray(1.0 - near + INLET_FILM * np.square(near))
-    # few points lose so much
+    # only few points
     beyond = loss > QUADRATIC
     left[beyond] *= np.exp(-_RATE * (loss[beyond] - QUADRATIC))
     return left
 
 
 def loss_at(film: Array) -> Array:
-    """Loss of first order that leaves a film, both over the smooth film: `film_left` inverted.
+    """First-order film reduction for a film, both over the smooth film: inverse of `film_left`.
 
-    A film that is not positive needs an infinite one.
+    It is infinite for a film that is not positive.
     """
     with np.errstate(divide="ignore"):
         beyond = -np.log(np.clip(film, 0.0, _LEFT) / _LEFT) / _RATE
@@ -97,11 +98,11 @@ def loss_at(film: Array) -> Array:
 
 
 class SecondOrder:
-    """gamma and s^2 of any surfaces on some tiles, from the response of the contact to their waves.
+    """gamma and s^2 of surfaces on given tiles, from the response of the contact to their waves.
 
     At ascending stations X (n,) [a] of the smooth contact `zone`, for each tile: T of the waves of
-    its table (n, m), their pressure over roughness (n, m) [p_h R/a^2], and that which they would
-    have if they had not slipped since the inlet.
+    its table (n, m), their pressure over roughness (n, m) [p_h R/a^2], and that pressure without
+    slip since the inlet.
     """
 
     def __init__(
@@ -115,7 +116,7 @@ class SecondOrder:
     ) -> None:
         self._tables = tables
         kx, ky = np.concatenate([table.coarse(COARSER) for table in tables], axis=1)
-        # a wave stands for +-k_Y, too
+        # a wave represents both signs of k_Y
         pairs = [
             zone.stiffness
             * stiffness(np.hypot(kx[:, np.newaxis] + i * kx, ky[:, np.newaxis] + j * ky))
@@ -151,12 +152,12 @@ class SecondOrder:
         pairs = zip(squared, self._yielding, source, strict=True)
         sums = np.array([a @ y @ b for a, y, b in pairs])
         sums += INLET_PRESSURE * np.square((few * self._alike).sum(axis=1))
-        # nothing in it, nothing of second order
+        # without waves there is no second order
         return sums / np.where(variance > 0.0, variance, 1.0) ** 2, variance
 
 
 def _lines(zone: Zone) -> Array:
-    """Lines on which the free wave is made: of a line contact one, which is like all others."""
+    """Lines on which the free wave is computed; one in a line contact, where all are equal."""
     return LINES if np.isfinite(zone.ellipticity) else LINES[AXIS : AXIS + 1]
 
 
@@ -164,46 +165,47 @@ STATIONS = np.array([-0.5, 0.0, 0.5])
 """Stations along the motion at which waves are computed [a], interpolated in between. Two more, at
 -0.25 and 0.25, change mu_r/mu_s of Table 1 by 0.06 % and, at a velocity ratio of 1.2, by 0.2 %."""
 MIDDLE = 1
-"""The one of them at X = 0."""
+"""Index of the station at X = 0."""
 CENTRE = STATIONS[: MIDDLE + 1]
 AXIS = LINES.size // 2
-"""The one of them on the centre line."""
+"""Index of the centre line in LINES."""
 
-# Standard deviation of the friction over Y [semi-axis], and the phase that may be interpolated.
+# Standard deviation of the friction over Y [semi-axis], and the largest phase that is interpolated.
 # The former is that of Newtonian contacts: 0.23 at M = 1000 and L = 10, 0.26 at M = 200. Half the
-# phase changes mu_r/mu_s of Table 1 by 0.2 %, twice the phase by nothing; twice the deviation by
-# 0.2 %, half of it by 1.8 % at most (velocity ratios of 1.01 to 1.25)
+# phase changes mu_r/mu_s of Table 1 by 0.2 %, twice the phase not at all; twice the deviation
+# changes it by 0.2 %, half of it by at most 1.8 % (velocity ratios of 1.01 to 1.25)
 FRICTION_LINES = 0.24
 BENDING = 0.2
 
-# Repetitions of pressure from leak and leak from pressure; each leaves a tenth of the change: two
-# and five give mu_r/mu_s within 1e-5 of that of three
+# Iterations of the leak, which depends on the pressure; each reduces the change to a tenth: two and
+# five give mu_r/mu_s within 1e-5 of that of three
 REPETITIONS = 3
 
 
 def _is_bent(spectrum: Spectrum, velocity_ratio: float) -> bool:
-    """Whether slip bends the free waves of a tile so much that every line is computed.
+    """Whether slip bends the crests of free waves so much that every line is computed.
 
-    The inlet is curved: off the centre line the free wave has slipped less. Where the phase of the
-    shortest wave differs little over the lines that friction comes from, it is interpolated.
+    The inlet is curved: off the centre line the roughness has slipped less relative to the free
+    wave. If the phase of the shortest wave differs little over the width where friction arises, it
+    is interpolated.
     """
     return abs(velocity_ratio - 1.0) * float(spectrum.qx[-1]) * 0.5 * FRICTION_LINES**2 > BENDING
 
 
 def _bend(kx: Array, slip: float) -> Complex:
-    """Phase of the free waves by slip after the curved inlet on LINES: (lines, ...)."""
+    """Phase of the free waves due to slip since the curved inlet, on LINES: (lines, ...)."""
     behind = np.sqrt(1.0 - np.square(LINES)) - 1.0
     return np.asarray(np.exp(1j * slip * np.multiply.outer(behind, kx)))
 
 
 def leaking_at_amplitude(zone: Zone, variance: float) -> Zone:
-    """Return a contact in which waves of finite pressure leak, for their friction.
+    """Return the contact with the leak of waves of finite pressure.
 
     The leak is div(rho H^3/(eta lambda) grad P): it is slow where the waves raise the pressure and
     the viscosity, and most of the friction arises there. For a Gaussian delta P of `variance` s^2
-    [p_h^2] the leak lowers the mean of exp(b delta P), b = d ln eta/dP the thickening, at the rate
-    of small waves over that mean, exp(b^2 s^2/2). Where the lubricant thins in the flow, b is that
-    of eta/phi_x: it leaks and shears by what is left of the viscosity.
+    [p_h^2] the leak reduces the mean of exp(b delta P), b = d ln eta/dP, at the rate of small waves
+    divided by that mean, exp(b^2 s^2/2). If the flow is shear-thinning, b is that of eta/phi_x, the
+    reduced viscosity, which governs both leak and shear.
     """
     b = zone.thickening
     if zone.factors:
@@ -214,7 +216,7 @@ def leaking_at_amplitude(zone: Zone, variance: float) -> Zone:
 
 
 class _Entering:
-    """The waves of a tile at the inlet, on the table of the tile."""
+    """The waves of a tile at the inlet, for the wavenumbers of its table."""
 
     def __init__(
         self, spectrum: Spectrum, velocity_ratio: float, zone: Zone, moes: tuple[float, float]
@@ -234,7 +236,7 @@ class _Entering:
             self._inlet *= _bend(kx, self._slip)
 
     def variance(self, zone: Zone, mesh: float) -> float:
-        """Mean square of their pressure at X = 0 where they leak as in a zone [p_h^2]."""
+        """Mean square of their pressure at X = 0 with the leak of a zone [p_h^2]."""
         few = self.table.coarse()
         convected = coarsened(self._inlet[self._axis], 1) * np.exp(1j * few[0] * self._slip)
         driven, free = transport(zone, *few, self.ratio, CENTRE, mesh)[MIDDLE]
@@ -242,7 +244,7 @@ class _Entering:
         return float(self.table.gathered(self._power) @ np.square(np.abs(pressure)))
 
     def at_stations(self, zone: Zone, mesh: float) -> _AtStations:
-        """Transport them to the stations of a zone in which they leak."""
+        """Transport them to the stations of a zone."""
         kx, ky, inlet = self.table.kx, self.table.ky, self._inlet[self._axis]
         stations = transport(zone, kx, ky, self.ratio, STATIONS, mesh)
         turned = [np.exp(1j * kx * self._slip * (x + 1.0)) for x in STATIONS]
@@ -266,8 +268,8 @@ class _Entering:
             off_centre=list(np.delete(beside, self._axis, 0)),
             line_pressure=pressure_parts,
         )
-        # the table has k_Y > 0; a wave with -k_Y is on a line what one with k_Y is on its mirror
-        # image
+        # the table has k_Y >= 0; a wave with -k_Y on a line equals one with k_Y on the mirror image
+        # of the line
         for name in ("off_centre", "line_pressure"):
             lines = result[name]
             result[name] = [
@@ -281,9 +283,9 @@ class _Entering:
 class _AtStations(NamedTuple):
     """The waves of a tile at the stations."""
 
-    # Of the components of the tile, by the names that :class:`Transfer` gives them
+    # For the components of the tile, by the names of the attributes of :class:`Transfer`
     parts: dict[str, list[Complex]]
-    # Of the table (n, m): T, pressure, and pressure without the slip since the inlet
+    # For the table (n, m): T, pressure, and pressure without the slip since the inlet
     ratios: Complex
     pressures: Complex
     convected: Complex
@@ -294,18 +296,18 @@ class Transfer:
     """T of every component of a tile: driven and free part at the stations."""
 
     driven: list[Complex]  # per station, shape of the spectrum
-    # Empty without free waves; per station on the centre line, without the phase that slip adds on
-    # the way from X = -1
+    # Empty without free waves; per station on the centre line, without the phase due to slip since
+    # X = -1
     free: list[Complex]
-    # What is added to the free part at X = 0 on each of LINES but the centre line
+    # Difference from the free part at X = 0, on each of LINES except the centre line
     off_centre: list[Complex]
-    # Whether the phase that slip loses by the curved inlet is left out of `off_centre`: the free
-    # waves are then to be read line by line
+    # Whether `off_centre` excludes the phase due to slip since the curved inlet: the free waves
+    # then have a different displacement on each line
     bent: bool
-    # The pressure of second order; None where the waves move with the roughness as they are
+    # The second-order pressure; None for `uniform`
     second: SecondOrder | None = None
-    # Of an ellipse, the pressure that is released where `off_centre` is [p_h R/a^2], of a
-    # half-space under a circle: on each of LINES (:func:`pyehl.theory.transport.line_pressure`)
+    # For an ellipse, pressure of `off_centre` on each of LINES, in the units of a circle [p_h
+    # R/a^2] (:func:`pyehl.theory.transport.line_pressure`)
     line_pressure: Sequence[Complex] = ()
     stiffening: float = 1.0  # stiffness over that of the half-space under a circle
     ellipticity: float = 1.0  # of the contact
@@ -320,12 +322,12 @@ class Transfer:
         at_amplitude: bool = False,
         mesh: float = 0.0,
     ) -> list[Transfer]:
-        """Of the tiles that are in a contact at a time, each with its velocity ratio.
+        """Compute the transfers of the tiles in a contact, each with its velocity ratio.
 
-        From tables over |q| and direction; `moes` are M, L of the circular contact with the same
-        inlet. `at_amplitude`: the waves leak as those of the amplitude of all tiles
-        (:func:`leaking_at_amplitude`), not as small ones. `mesh` [a]: they leak as on a grid. The
-        pressure of second order is one.
+        They are interpolated from tables over |q| and direction; `moes` are M and L of the circular
+        contact with the same inlet. `at_amplitude`: the leak is that at the total amplitude of all
+        tiles (:func:`leaking_at_amplitude`), not that of small waves. `mesh` [a]: the leak is that
+        on a grid; 0: of the continuous equations. All tiles share the second-order pressure.
         """
         entering = [_Entering(*tile, zone, moes) for tile in tiles]
         leaking = zone
@@ -375,8 +377,8 @@ class Transfer:
     def gain(self, qx: Array, qy: Array, central_film: float) -> Array:
         """Stiffness of waves [1/a] over that of the half-space under a circle, at H_c [a^2/R].
 
-        The factor that was measured on circles is for what is calculated on ellipses; a line has no
-        sides.
+        The measured factor of circles represents an effect that is computed for ellipses; a line
+        has no sides.
         """
         if self.line_pressure or np.isinf(self.ellipticity):
             return np.full(np.broadcast_shapes(qx.shape, qy.shape), self.stiffening)
@@ -385,16 +387,16 @@ class Transfer:
     def free_pressures(
         self, qx: Array, qy: Array, velocity_ratio: float
     ) -> tuple[list[Complex], ...]:
-        """Pressures that free waves release on an ellipse, of a half-space under a circle.
+        """Pressures released by free waves on an ellipse, in the units of a circle.
 
-        At the stations, and what is added on each of LINES but the centre line.
+        At the stations, and the differences on each of LINES except the centre line.
         """
         k_free, axis = free_stiffness(qx, qy, velocity_ratio), self.line_pressure[AXIS]
         lines = [p - axis for i, p in enumerate(self.line_pressure) if i != AXIS]
         return [k_free * t + axis for t in self.free], lines
 
     def beside(self, qx: Array, velocity_ratio: float) -> Complex | None:
-        """Change of T at X = 0 on LINES (lines, ...) of an ellipse; None of a circle."""
+        """Change of T at X = 0 on LINES (lines, ...) of an ellipse; None for a circle."""
         if not self.line_pressure:
             return None
         slip = velocity_ratio - 1.0
@@ -423,7 +425,7 @@ class Transfer:
 
 @dataclass(frozen=True, slots=True)
 class Response:
-    """Response of a loaded contact to a rough tile, with the properties of its centre."""
+    """Response of a loaded contact to a rough tile, everywhere as at its centre."""
 
     pressure: Array  # delta p (nx, ny) [Pa], mean zero
     deformed: Array  # deformed roughness rr_d (nx, ny) [m], mean zero, peaks thin the film

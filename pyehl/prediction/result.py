@@ -70,7 +70,7 @@ def destination(
     inputs: Iterable[str | os.PathLike[str]] = (),
     force: bool = False,
 ) -> Destination:
-    """Give the place of the result of a prediction, to check it before there is one."""
+    """Give the destination of a prediction, so that it can be checked in advance."""
     names = [f"{name}.csv" for name in TABLES] + [f"{name}.npy" for name in ARRAYS + ARRAYS_OF_TWO]
     names += [f"{name}.png" for name in PICTURES + PICTURES_OF_SECOND]
     names += ["case.nml", "summary.json"]
@@ -99,7 +99,7 @@ def write(prediction: Prediction, place: Destination) -> None:
 
 
 def draw(prediction: Prediction, folder: str | os.PathLike[str]) -> None:
-    """Add the pictures to a result folder that is written; one that fails is a warning."""
+    """Add the pictures to a written result folder; a picture that fails causes a warning."""
     folder = Path(folder)
     summary = prediction.summary
     drawn = []
@@ -127,31 +127,31 @@ class Prediction:
     settings
         The resolved case.
     model
-        Its rough surfaces, smooth contact, operating point and lubricant, and how it was read.
+        Its rough surfaces, smooth contact, operating point, lubricant and options.
     films
-        The smooth contact with the boundary film of the case, of which films and maximum pressure
-        are reported.
+        The smooth contact with the boundary film of the case, whose films and maximum pressure are
+        reported.
     outcome
         Friction over the passage with delta p and deformed roughness, mean and spread over tracks,
         and contribution of each octave of wavelengths.
     below
-        Where the film ends, and on which share of the contact.
+        Where the film breaks down, and on which share of the contact.
     seconds
         Wall time of the whole prediction, tracks and bands included.
     text
-        The resolved case as namelist text; '' where only its settings are known.
+        The resolved case as namelist text; '' if only its settings are known.
     track_count
         Number of tracks.
     advice
-        With the status ``"film breakdown"``: where the film ends, and a suggested cut-off.
+        With the status ``"film breakdown"``: its place, and a suggested cut-off.
     together
-        The sum of two surfaces that move so; None: there is none.
+        The sum of two surfaces that move together; None for other surfaces.
     mixed
-        Contact at a boundary film; None: the case has none.
+        Contact at a boundary film; None without one.
     heat
         Effect of the frictional heat on friction; None: no effect.
     beside
-        The same with other spectra, where Ra or a finish is given.
+        Predictions with other spectra, if Ra or a finish is given.
 
     Examples
     --------
@@ -189,7 +189,7 @@ class Prediction:
 
     @property
     def options(self) -> ModelOptions:
-        """How the model was read."""
+        """The options of the model."""
         return self.model.options
 
     @property
@@ -229,7 +229,7 @@ class Prediction:
 
     @property
     def film_minimum(self) -> float:
-        """Smooth minimum film h_min [m]; NaN where it is not known."""
+        """Smooth minimum film h_min [m]; NaN if it is not known."""
         return self.films.minimum_film * self.operating.film_scale
 
     @property
@@ -268,12 +268,12 @@ class Prediction:
 
     @property
     def outside_range(self) -> list[str]:
-        """Numbers of the case outside the range in which the response was measured; mostly []."""
+        """Names of quantities outside the range in which the response was measured."""
         return self.model.outside_range()
 
     @property
     def model_error(self) -> float:
-        """Error of `mu_ratio` by the model, estimated [-]; NaN where it is not known."""
+        """Estimated error of `mu_ratio` due to the model [-]; NaN if it is not known."""
         if self.why_no_error:
             return math.nan
         if self.mixed and self.mixed.touches:
@@ -283,7 +283,7 @@ class Prediction:
 
     @property
     def why_no_error(self) -> str:
-        """Why `model_error` is not known; '' where it is."""
+        """Why `model_error` is not known; '' if it is known."""
         if self.mixed and self.mixed.friction_unknown:
             return NO_FRICTION
         of = self.mu_ratio, self.outside_range, self.options
@@ -292,7 +292,7 @@ class Prediction:
 
     @property
     def is_known(self) -> bool:
-        """Whether errors of film and pressure over the roughness were measured in such a case."""
+        """Whether the errors of film and pressure over the roughness are known for such a case."""
         return self.options.measured and not self.model.outside_range(FILM_ELLIPTICITY)
 
     @property

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pressure, film and friction of a contact in one position of one or two rough surfaces.
+"""Pressure, film and friction of a contact at one position of one or two rough surfaces.
 
 Pressure P_s + delta P and film H_s - rr_d with P_s and H_s of the smooth contact; friction is the
 integral of the shear stress (Zhang et al. 2019, eqs 13, 14). To first order the waves of all
 surfaces add up (:mod:`pyehl.prediction.moving_tile`); the pressure of second order is that of the
 sum (:mod:`pyehl.prediction.response`); waves longer than half the contact radius also depend on the
-edge of the contact, which they move.
+edge of the contact, which they displace.
 
-The points of the contact under one surface are pixels of its tile. Two tiles have pixels and
-lengths of their own: the points are on a grid of the contact, and the waves are made on its lines.
+The points of the contact under one surface are pixels of its tile. Two tiles have different pixels
+and lengths: there the points are on a grid of the contact, and the waves are computed on its lines.
 Units: lengths along the surface by a, films by a^2/R, pressures by p_h.
 """
 
@@ -41,19 +41,19 @@ from pyehl.theory.strip_edge import StripEdge
 from pyehl.types import Array, Indices, Single
 
 OUTER = 0.7
-"""Distance from the centre beyond which the smooth film moves with the edge [semi-axes]; further
-inside it is level. 0.6 and 0.8 change mu_r/mu_s by 0.06 % at the most at M = 1000 and L = 10, by
-0.2 % at M = 200."""
+"""Distance from the centre beyond which the smooth film is displaced with the edge [semi-axes];
+inside it is nearly uniform. 0.6 and 0.8 change mu_r/mu_s by at most 0.06 % at M = 1000 and L = 10,
+by 0.2 % at M = 200."""
 RINGS = np.array([0.0, 0.4, OUTER])
-"""Inner radii of the rings in which the pressure is balanced with the waves [semi-axes]: two more
-or less change mu_r/mu_s by less than 1e-5 where no ring loses its load."""
+"""Inner radii of the rings in each of which the load is kept [semi-axes]: two rings more or fewer
+change mu_r/mu_s by less than 1e-5 unless a ring loses its load."""
 
 
 class RoughContact(ShearedContact):
-    """Points of a contact at places x (m,), y (n,) [a] that the waves of rough surfaces change.
+    """Points of a contact at x (m,), y (n,) [a], with the waves of rough surfaces.
 
-    A point stands for an `area` [m^2], of a line per length [m]; `powers` of the components as the
-    transfers were made for them.
+    `area`: area per point [m^2], of a line per length [m]; `powers` of the components, for which
+    their transfers hold.
     """
 
     def __init__(
@@ -75,7 +75,7 @@ class RoughContact(ShearedContact):
         self.radius = np.hypot(self.x[:, np.newaxis], self.across[np.newaxis, :])
         self.inside = (self.radius < REACH) & (self.pressure > 0.0)
         self.points = int(np.count_nonzero(self.inside))
-        # of the points of the contact alone, in the order of `places`
+        # only for points in the contact, in the order of `places`
         radius = self.radius[self.inside]
         self.inner, self.near = (np.flatnonzero(radius < r) for r in (INNER, NEAR))
         self.rings = np.searchsorted(RINGS, radius, side="right") - 1
@@ -86,7 +86,7 @@ class RoughContact(ShearedContact):
         self.minimum = math.inf
         self.weights = station_weights(self.x).astype(np.float32)
         self.expansion = self._expansion(smooth)
-        # (n, points): what is summed over them is read in order
+        # (n, points), so that sums over n read memory in order
         i, j = np.nonzero(self.inside)
         self.places = np.ravel_multi_index((i, j), self.film.shape).astype(np.int32)
         if self.strip:
@@ -94,7 +94,7 @@ class RoughContact(ShearedContact):
         else:
             self.polynomials = edge.polynomials(self.x[i], self.across[j]).astype(np.float32)
         order = waves[0].transfer.second
-        # Loss of first order over the film at which the film ends
+        # First-order film reduction over the smooth film at a film breakdown
         self.ends = FILM_ENDS if order else 1.0
         # gamma and s^2 of the pressure of second order
         self.second = order and [
@@ -113,7 +113,7 @@ class RoughContact(ShearedContact):
         tile: PixelTile,
         powers: Sequence[Array] | None = None,
     ) -> RoughContact:
-        """Under one surface, at pixels of its tile."""
+        """Make the contact under one surface, at pixels of its tile."""
         area = tile.stride**2 * tile.pixel[0] * tile.pixel[1] * operating.hertz_radius**2
         if operating.ellipse.is_line:
             area = tile.stride * tile.pixel[0] * operating.hertz_radius / tile.columns.size
@@ -131,7 +131,7 @@ class RoughContact(ShearedContact):
         powers: Sequence[Array] | None = None,
         tracks: Sequence[float] = (0.0, 0.0),
     ) -> RoughContact:
-        """Under two surfaces, at `points` points per semi-axis; `tracks` of both [a]."""
+        """Make it under two surfaces, at `points` points per semi-axis; `tracks` of both [a]."""
         half = int(REACH * points)
         x = np.arange(-half, half + 1) / points
         shape = waves[0].edge.shape
@@ -152,7 +152,7 @@ class RoughContact(ShearedContact):
         return cls(smooth, operating, lubricant, x, y, area, waves, powers, tiles)
 
     def change(self, position: Position) -> Single:
-        """Loss of film [a^2/R] and gain of pressure [p_h] at the points in a position (m, n, 2)."""
+        """Film reduction [a^2/R] and pressure increase [p_h] at a position (m, n, 2)."""
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
         for tile in self.tiles:
             tile.add(self, position, total)
@@ -167,13 +167,13 @@ class RoughContact(ShearedContact):
         change = self.change(position)
         smooth = self.smooth_film()
         if len(self.tiles) > 1:
-            # under one surface its pixels are counted (:mod:`pyehl.prediction.breakdown`)
+            # under one surface :mod:`pyehl.prediction.breakdown` counts pixels instead
             ended = (change[..., 0] >= self.ends * smooth) & self.inside
             self.ended += int(np.count_nonzero(ended))
         return self.sheared(change, smooth)
 
     def _expansion(self, contact: SmoothContact) -> Single:
-        """Free waves over those of the centre line (m, n): a mass fills more where P is lower."""
+        """Ratio of free waves to those on the centre line (m, n): a mass expands at lower P."""
         p_h = self.operating.hertz_pressure
         axis, _ = contact.at(STATIONS, np.zeros(1))
         made = self.weights @ self.lubricant.density_ratio(axis[:, 0] * p_h)
@@ -189,9 +189,9 @@ class RoughContact(ShearedContact):
         shift: int,
         total: Single,
     ) -> None:
-        """Add free waves to loss of film and gain of pressure (m, n, 2), moved by some rows.
+        """Add free waves, shifted by some rows, to film reduction and pressure increase (m, n, 2).
 
-        `places` are the row before each point (m, 1 or n) and the share of the next one; columns
+        `places` are the row before each point (m, 1 or n) and the weight of the next one; columns
         (n,); `beside`: :meth:`WaveTiles.beside`.
         """
         if waves.free is None or beside is None:
@@ -232,11 +232,11 @@ class RoughContact(ShearedContact):
         )
 
     def _outer(self, contact: SmoothContact) -> tuple[NDArray[Any], ...]:
-        """Points whose film moves with the edge, as `smooth_film` takes them.
+        """Points whose film is displaced with the edge, as arguments for `smooth_film`.
 
-        Film (ny, nx), centre and points in nodes of the smooth contact, the node on the edge before
-        each and the shares of this and the next one over the distance from the centre, and the
-        place of the point.
+        Film (ny, nx), centre and points in nodes of the smooth contact; for each point the
+        preceding node on the edge, the weights of this and the next one over the distance from the
+        centre, and the index of the point.
         """
         i, j = np.nonzero(self.inside & (self.radius > OUTER))
         if self.strip:
@@ -261,7 +261,7 @@ class RoughContact(ShearedContact):
     def _outer_of_strip(
         self, contact: SmoothContact, strip: StripEdge, i: Indices, j: Indices
     ) -> tuple[NDArray[Any], ...]:
-        """Points (n,) of a line contact as `_outer` has them: both edges, one after the other."""
+        """Give the same for points (n,) of a line contact: the edges follow one another."""
         step = contact.x[1] - contact.x[0]
         at = self.y[j] % strip.width * (strip.places / strip.width)
         place = np.minimum(np.floor(at).astype(np.int32), strip.places - 1)
@@ -278,7 +278,7 @@ class RoughContact(ShearedContact):
         )
 
     def smooth_film(self) -> Array:
-        """Film of the smooth contact with its edge where it was moved to (m, n) [a^2/R]."""
+        """Film of the smooth contact with its displaced edge (m, n) [a^2/R]."""
         film, (*points, place) = self.film.copy(), self.outer
         extension.surface_functions.film_moved(*points, self.moved, place, film.reshape(-1))
         return film
@@ -288,12 +288,12 @@ class RoughContact(ShearedContact):
         return self.minimum if self.minimum_film > 0.0 else self.minimum_film
 
     def sheared(self, change: Single, smooth: Array) -> float:
-        """Friction over that of the smooth contact, film and pressure changed by (m, n, 2).
+        """Friction over that of the smooth contact with changes (m, n, 2) of film and pressure.
 
-        `smooth`: its film in this position (m, n). NaN where the film is not positive, or a ring of
+        `smooth`: its film at this position (m, n). NaN if the film is not positive, or a ring of
         the contact would need tension.
         """
-        # of the points of the contact alone
+        # only at points in the contact
         smooth = smooth.take(self.places)
         loss, gain = change.reshape(-1, 2).take(self.places, axis=0).T
         film = smooth * film_left(loss / smooth) if self.second else smooth - loss
@@ -319,7 +319,7 @@ class RoughContact(ShearedContact):
                 self.lost = True
                 return math.nan
             pressure[tensile] = 0.0
-            # the rest of a ring carries its load without the tension
+            # compression in the rest of a ring carries its load
             compression = load - tension
             share = np.divide(load, compression, out=np.ones_like(load), where=compression > 0.0)
             pressure *= share[self.rings]
@@ -328,10 +328,11 @@ class RoughContact(ShearedContact):
 
 
 def missing(contact: SmoothContact, film: Array, minimum: float) -> Array | float:
-    """Correction of films H_s [a^2/R] of a smooth contact to those extrapolated, to be added.
+    """Correction to be added to films H_s [a^2/R] of a smooth contact, for extrapolated ones.
 
-    They are scaled to the extrapolated central film; the minimum film needs more than that, on the
-    grid of the smooth contact, whose `minimum` film it is. In between it is linear in the film.
+    The films are scaled to the extrapolated central film already, where the correction is 0. At the
+    `minimum` film of the grid it is the difference from the extrapolated minimum; in between it is
+    linear in the film.
     """
     central = contact.central_film
     if not contact.extrapolated or minimum >= central:

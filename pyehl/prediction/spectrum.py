@@ -20,9 +20,9 @@ from pyehl.theory.line_contact import AnyContact
 from pyehl.types import Array, Complex, Indices, Mask
 
 FIRST_POSITIONS = 8
-"""Fewest positions of a tile in a passage, and those of a mean over a few."""
+"""Minimum number of positions of a tile in a passage, also for a mean over a few positions."""
 MAX_POSITIONS = 4096
-"""Most positions of a passage, as in the range of psd.positions."""
+"""Maximum number of positions in a passage, as in the range of psd.positions."""
 WORKING_PIXELS = 48
 """Pixels per semi-axis below which a coarse map is interpolated."""
 
@@ -31,7 +31,7 @@ WORKING_PIXELS = 48
 class Spectrum:
     """The Fourier components of a tile with qx >= 0."""
 
-    values: Complex  # (nx//2 + 1, ny) [a^2/R], of the transform without factors, the mean left out
+    values: Complex  # (nx//2 + 1, ny) [a^2/R], transform without factors, zero mean
     # (nx//2 + 1,) and (ny,) [1/a]
     qx: Array
     qy: Array
@@ -40,7 +40,7 @@ class Spectrum:
 
     @classmethod
     def of(cls, heights: Array, length_x: float, length_y: float) -> Spectrum:
-        """Of heights (nx, ny) [a^2/R] on a tile of a size [a]."""
+        """Transform heights (nx, ny) [a^2/R] on a tile of a size [a]."""
         nx, ny = heights.shape
         values = np.fft.fft(np.fft.rfft(heights, axis=0), axis=1)
         values[0, 0] = 0.0
@@ -64,7 +64,7 @@ class Spectrum:
         return 2.0 * np.pi / (self.qx[1] * nx), 2.0 * np.pi / (self.qy[1] * ny)
 
     def longest(self, nx: int, ny: int) -> tuple[Indices, Indices]:
-        """Rows and columns of `values` that a tile of nx x ny pixels, no more than here, has."""
+        """Rows and columns of `values` that a tile of nx x ny pixels contains."""
         columns = np.rint(np.fft.fftfreq(ny, 1.0 / ny)).astype(np.int_) % self.shape[1]
         return np.arange(nx // 2 + 1), columns
 
@@ -82,8 +82,8 @@ class Spectrum:
     ) -> Array:
         """Heights (refinement nx, ny/stride) of the tile with its components times a factor.
 
-        In the precision of both. With `lines`, (ny, n), what :meth:`on_lines` gives, on
-        these, (refinement nx, n).
+        In the precision of both. With `lines` (ny, n), the result of :meth:`on_lines`, on these
+        lines: (refinement nx, n).
         """
         result = self.along(factor, refinement, stride, lines)
         return np.asarray(np.fft.irfft(result, n=self.shape[0] * refinement).T)
@@ -97,7 +97,7 @@ class Spectrum:
     ) -> NDArray[np.complexfloating[Any, Any]]:
         """Waves along the motion (n, nx//2 + 1) on each column or line of :meth:`tile`.
 
-        In order, as for a transform of refinement nx heights.
+        Ordered for a transform of refinement nx heights.
         """
         nx, ny = self.shape
         part = self.values * factor
@@ -108,7 +108,7 @@ class Spectrum:
         if lines is not None:
             return np.asarray((lines.T @ part.T) * (refinement / ny))
         if stride > 1:
-            # on every stride-th column waves that differ by its wavenumber are one
+            # with a stride, waves that differ by its wavenumber are equal
             part = part.reshape(part.shape[0], stride, -1).sum(axis=1)
         across = np.ascontiguousarray(np.fft.ifft(part, axis=1).T)
         across *= refinement / stride
@@ -119,7 +119,7 @@ class Spectrum:
         return np.exp(1j * np.outer(self.qy, y)).astype(self.values.dtype)
 
     def share_below(self, length: float) -> float:
-        """Share of the variance in waves shorter than a length [a], 0 where it is rounding."""
+        """Share of the variance in waves shorter than a length [a]; rounding errors count as 0."""
         power = self.power
         # a flat surface has none
         share = float(power[self.q > 2.0 * np.pi / length].sum() / (power.sum() or 1.0))
@@ -128,7 +128,7 @@ class Spectrum:
     def amplitudes(self, i: Indices, j: Indices, factor: Complex | float = 1.0) -> Complex:
         """Amplitudes (m,) of the plane waves at rows and columns of `values`, times a factor."""
         nx, ny = self.shape
-        # a component stands for its conjugate at -q too, unless both are in the half spectrum
+        # a component includes its conjugate at -q, unless the half spectrum contains both
         twice = np.where((i == 0) | ((nx % 2 == 0) & (i == nx // 2)), 1.0, 2.0)
         return np.asarray(twice * self.values[i, j] * factor / (nx * ny))
 
@@ -136,15 +136,15 @@ class Spectrum:
     def power(self) -> Array:
         """Mean square of each component and its conjugate (nx//2 + 1, ny) [a^4/R^2]."""
         power = np.square(np.abs(self.values)) / np.prod(self.shape, dtype=float) ** 2
-        # components with 0 < qx < Nyquist stand for two
+        # components with 0 < qx < Nyquist include their conjugates
         power[1 : (self.shape[0] + 1) // 2] *= 2.0
         return cast(Array, power)
 
 
 def _fewer_pixels(pixels: int, length: float, limit: float, semi_axis: float) -> int:
-    """Pixels for waves below a limit [1/a] in a contact, as a mean over a few positions takes them.
+    """Give the pixels that waves below a limit [1/a] need for a mean over few positions.
 
-    Of a tile of a length [a] with `pixels` pixels, along a semi-axis of the contact [a].
+    For a tile of a length [a] with `pixels` pixels, along a semi-axis of the contact [a].
     """
     if math.isinf(limit):
         return pixels
@@ -157,9 +157,9 @@ def _fewer_pixels(pixels: int, length: float, limit: float, semi_axis: float) ->
 def longer_waves(
     spectrum: Spectrum, limit: float, ellipticity: float
 ) -> tuple[Spectrum, tuple[Indices, Indices]]:
-    """Waves of a tile with |q| below a limit [1/a] on as few pixels as they need.
+    """Waves of a tile with |q| below a limit [1/a], on as few pixels as they need.
 
-    And the rows and columns that are left of the spectrum.
+    Also the rows and columns of the spectrum that remain.
     """
     axes = 1.0, ellipticity
     nx, ny = (
@@ -173,7 +173,7 @@ def longer_waves(
 
 
 def working_grid(topography: Topography, operating: AnyContact, positions: int) -> Topography:
-    """Return the tile on a grid that resolves the contact and has room for the positions.
+    """Return the tile on a grid that resolves the contact, with enough pixels for the positions.
 
     InputError if that takes too many pixels.
     """
@@ -195,22 +195,22 @@ def working_grid(topography: Topography, operating: AnyContact, positions: int) 
     return resampled(topography, (want_x, want_y))
 
 
-# Wavenumbers and directions: the interpolated T is right to 1e-3. Both are odd, and so are those of
-# the coarse tables, which every second one makes
+# Numbers of wavenumbers and directions: the interpolated T has an error of 1e-3. Both are odd, as
+# are those of the coarse tables, which have every second one
 TABLE = (73, 25)
-# Components that are interpolated at a time: few enough to stay in the cache
+# Number of components that are interpolated at a time, which fit into the cache
 BLOCK = 1 << 12
 
 
 def coarsened(values: NDArray[Any], times: int) -> NDArray[Any]:
-    """Values of a table (..., m) at the places of a coarse one (..., l)."""
+    """Values of a table (..., m) at the entries of a coarse table (..., l)."""
     step = 2**times
     whole = values.reshape(*values.shape[:-1], *TABLE)
     return whole[..., ::step, ::step].reshape(*values.shape[:-1], -1)
 
 
 class WaveTable:
-    """Wavenumbers at which a response is taken, kx, ky (m,) [1/a], and the way to a tile."""
+    """Wavenumbers kx, ky (m,) [1/a] of a table of the response, and its interpolation to a tile."""
 
     def __init__(self, spectrum: Spectrum) -> None:
         rows, ny = spectrum.qx.size, spectrum.qy.size
@@ -234,10 +234,10 @@ class WaveTable:
         self._mirror = np.minimum(np.arange(ny), ny - np.arange(ny))
 
     def gathered(self, power: Array, times: int = 1) -> Array:
-        """Sum the powers of the components of a tile at the places of a coarse table, (l,).
+        """Sum the powers of the components of a tile at the entries of a coarse table, (l,).
 
-        Weighted as for a linear interpolation between them. `times`: how often every second
-        wavenumber and direction is left out.
+        Weighted as in a linear interpolation between the entries. `times`: number of coarsenings,
+        each of which omits every second wavenumber and direction.
         """
         half = self._shape[1]
         folded = power[:, :half].copy()
@@ -274,12 +274,12 @@ class WaveTable:
 
 
 def _between(values: Array, row: Array, column: Array) -> Array:
-    """Interpolate a table (m, k) bilinearly at places (n,): (n, k)."""
+    """Interpolate a table (m, k) bilinearly at positions (n,): (n, k)."""
     i, j = (
         np.minimum(place.astype(np.int32), size - 2)
         for place, size in zip((row, column), TABLE, strict=True)
     )
-    # what rounding puts beyond the last column is on it
+    # positions beyond the last column are rounding errors
     u, v = row - i, np.minimum(column - j, 1.0)
     at = i * np.int32(TABLE[1]) + j
     result = values[at] * ((1.0 - u) * (1.0 - v))[:, np.newaxis]
@@ -288,9 +288,9 @@ def _between(values: Array, row: Array, column: Array) -> Array:
     return result
 
 
-# A wave at the end of an octave begins the next one, whatever its last digits
+# Tolerance with which a wave at the end of an octave belongs to the next one
 ROUNDING = 1e-9
-# Share of the largest mean square that counts for none: rounding leaves its square, 1e-32
+# Share of the largest mean square that counts as zero: rounding errors have a share of about 1e-32
 NOTHING = 1e-20
 
 # Attributes of a band, and their names in results
@@ -320,12 +320,12 @@ class Band:
 
 
 def octaves(q: Array, power: Array, *, only: int = 0) -> Iterator[tuple[float, Mask, bool]]:
-    """Octaves of wavelengths that hold roughness, longest first; the last `only`, 0: all.
+    """Octaves of wavelengths with roughness, longest first; the last `only`, 0: all.
 
-    `q` is |q| of the components, of any shape and unit, `power` what each adds to the mean square
-    height; at most `NOTHING` of the largest counts for none (a harmonic pattern has rounding errors
-    in all octaves but its own). Yields the longest wavelength 2 pi/|q| of the octave, which
-    components are in it, and whether it is the last one.
+    `q` is |q| of the components, of any shape and unit, `power` their contributions to the mean
+    square height; a share of `NOTHING` of the largest counts as zero, because a harmonic pattern
+    has rounding errors in all other octaves. Yields the longest wavelength 2 pi/|q| of the octave,
+    the mask of its components, and whether it is the last one.
     """
     lowest = float(q[q > 0.0].min())
     octave = np.full(q.shape, -1)
@@ -344,11 +344,11 @@ def joining(
     *,
     brief: bool,
 ) -> list[Band]:
-    """Return the contribution of each octave, or of the last one (`brief`), to that of longer ones.
+    """Return the contribution of each octave added to all longer ones; `brief`: of the last one.
 
-    Of waves, arrays of the same shape: |q| [1/a], mean square height [a^4/R^2], |T| [-], pressure
+    `waves` are arrays of the same shape: |q| [1/a], mean square height [a^4/R^2], |T| [-], pressure
     over roughness [p_h R/a^2]. `below` gives mu_r/mu_s of the waves with |q| below a limit [1/a],
-    `total` is that of all.
+    `total` is that of all waves.
     """
     q, power, deformed, pressure = waves
     a, film, p_h = operating.hertz_radius, operating.film_scale, operating.hertz_pressure
@@ -378,14 +378,14 @@ def joining(
 
 
 def cutoff_error(bands: Sequence[Band]) -> float:
-    """Return the contribution of the last octave of wavelengths to mu_r/mu_s [-], by its modulus.
+    """Return the magnitude of the contribution of the last octave of wavelengths to mu_r/mu_s [-].
 
-    This depends on the cut-off: a measure of the contribution of waves shorter than those of the
+    It depends on the cut-off, and indicates the contribution of waves shorter than those of the
     map. NaN without bands.
     """
     return abs(bands[-1].increase) if bands else math.nan
 
 
 def records(bands: Sequence[Band]) -> list[dict[str, float]]:
-    """Give bands as in results: names with units and values."""
+    """Give bands with the names and units of results."""
     return [{name: getattr(band, key) for key, name in BAND_COLUMNS.items()} for band in bands]

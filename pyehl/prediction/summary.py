@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 RMS_DEFORMED_ERROR, INCREASE_RMS_ERROR, INCREASE_ERROR = 0.13, 0.05, 0.15
-"""Errors against the full simulation, relative (docs/evidence/thinning)."""
+"""Relative errors against the full simulation (docs/evidence/thinning)."""
 SECOND = "second_"
 """Prefix of the names of the second surface."""
 
@@ -79,7 +79,7 @@ def second_summary(
 ) -> dict[str, Any]:
     """Return the entries of a summary for the second of two surfaces, and for both.
 
-    `together`: their sum where they move together.
+    `together`: their sum if they move together.
     """
     slopes = [_slope(tile) for tile in tiles]
     return {
@@ -117,11 +117,11 @@ def deformed_surface(
     known: bool,
     together_rms: float | None = None,
 ) -> dict[str, Any]:
-    """Give the numbers of a summary on the deformed surface.
+    """Give the entries of a summary on the deformed surface.
 
-    Minimum film of the smooth contact and film limit in m; `known`: whether the errors are, because
-    the model is one that they were measured of and the case in its range; `together_rms`: rms
-    height of the sum of two deformed surfaces that move together [m]. NaN for what is not known.
+    Minimum film of the smooth contact and film limit in m; `known`: whether the errors are known,
+    which requires the measured model and a case in its range; `together_rms`: rms height of the sum
+    of two deformed surfaces that move together [m]. Unknown numbers are NaN.
     """
     of_each = [float(np.std(response.deformed)) for response in friction.responses]
     deformed = of_each[0]
@@ -147,7 +147,7 @@ def deformed_surface(
 
 
 def error_name(name: str) -> str:
-    """Give the name of the error of a quantity: before the unit."""
+    """Give the name of the error of a quantity, with 'error' before the unit."""
     for unit in ("_m", "_Pa", "_share"):
         if name.endswith(unit):
             return f"{name.removesuffix(unit)}_error{unit.replace('_share', '')}"
@@ -155,10 +155,10 @@ def error_name(name: str) -> str:
 
 
 def deformed_surfaces(rows: Sequence[Mapping[str, Any]]) -> dict[str, float | None]:
-    """Give the same over the summaries of several surfaces.
+    """Give the same entries over the summaries of several surfaces.
 
-    Means, the maximum pressure increase, the minimum film; the largest of each error. None
-    where one of the surfaces has none.
+    Means, the maximum pressure increase, the minimum film, and the largest of each error. None for
+    an entry that one of the surfaces does not have.
     """
     names = (
         "lambda_ratio_deformed",
@@ -178,9 +178,9 @@ def deformed_surfaces(rows: Sequence[Mapping[str, Any]]) -> dict[str, float | No
 
 
 def contact_numbers(mixed: MixedFilm | None, boundary: float, *, known: bool) -> dict[str, Any]:
-    """Give the numbers of a summary on contact with a boundary film [a^2/R]; nothing without one.
+    """Give the entries of a summary on contact at a boundary film [a^2/R]; none without one.
 
-    `known`: whether the case lies in the range that the response was measured in.
+    `known`: whether the case lies in the range in which the response was measured.
     """
     if mixed is None:
         return {}

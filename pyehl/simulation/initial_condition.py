@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pressure that time steps begin with where rough surfaces fill the contact from the start.
+"""The initial pressure of a run whose contact is covered by rough surfaces from the start.
 
-It has the waves of :mod:`pyehl.prediction.response` that the grid of the run resolves, on its
-nodes. Units: lengths by a, heights by a^2/R, pressures by p_h.
+It is the pressure of :mod:`pyehl.prediction.response`, of the waves that the grid of the run
+resolves, at the nodes of the grid. Units: lengths by a, heights by a^2/R, pressures by p_h.
 """
 
 from __future__ import annotations
@@ -36,9 +36,10 @@ LOG = logging.getLogger(__name__)
 REFINEMENT = 2
 # A grid resolves waves of more than two nodes: margin for rounding errors
 BELOW = 1.0 - 1e-9
-# The pressure of the waves fades over this width at the edge of the contact [a]. Half of it and
-# twice change mu_r/mu_s of a wave of 0.5 a in the contact of Table 1 by 0.06 and 0.24 % at most,
-# about the error of its end, and the cycles per step by 3 % (129 x 129 nodes)
+# The pressure of the waves fades over this width at the edge of the contact [a]. Half this
+# width and twice this width change mu_r/mu_s of a wave of 0.5 a in the contact of Table 1 by at
+# most 0.06 and 0.24 %, about the error of its final value, and the cycles per step by 3 %
+# (129 x 129 nodes)
 EDGE_WIDTH = 0.1
 
 
@@ -52,7 +53,7 @@ def starting_pressure(
     settings
         The resolved case.
     tiles
-        Its surfaces by group on their tracks, where they are not made as the case states.
+        Surfaces by group, on their tracks, that replace those of the case.
     x, y
         Nodes of the grid of the run (nx,), (ny,) [a].
     fronts
@@ -70,10 +71,10 @@ def starting_pressure(
         raise InputError(f"{', '.join(beyond)} outside the range of the prediction")
     fronts = fronts[:, list(model.order)]
     if model.merged is not None:
-        # the tile of both is at the position of the first one
+        # the tile of their sum is at the position of the first one
         model, fronts = model.merged, fronts[:, :1]
     waves = model.components()
-    # removes the waves that are not on the grid from the spectra
+    # this also removes the waves that the grid does not resolve from the spectra
     on_grid = [_GridWaves(wave, model, x, y) for wave in waves]
     if not math.isfinite(model_error(mean(model, waves))):
         raise InputError("the pressures are beyond a linear response")
@@ -100,10 +101,10 @@ def _pressure(waves: Sequence[_GridWaves], x: Array, y: Array, fronts: Array) ->
 def transfer(
     solver: SolverHandle, settings: Settings, tiles: Mapping[str, Topography], *, whole: bool
 ) -> None:
-    """Give a solver the pressure that it starts from, or report why there is none.
+    """Pass the initial pressure to a solver, or report why there is none.
 
-    The solver then starts with roughness behind a front. `whole`: none of `tiles`, by group, is
-    only a part of the surface.
+    Without it the roughness enters the contact behind a front. `whole`: no tile of `tiles`, by
+    group, is only a part of its surface.
     """
     try:
         if not whole:
@@ -123,7 +124,7 @@ def transfer(
 def _model(
     settings: Settings, tiles: Mapping[str, Topography], mesh: float, fronts: Array
 ) -> Model:
-    """Model of a resolved case whose waves leak as on a grid, with tiles at fronts [a]."""
+    """Model of a resolved case with the leakage of a grid, and with tiles at fronts [a]."""
     if turned(settings):
         raise InputError(turned(settings))
     if settings["contact"].get("shape") == "line":
@@ -200,7 +201,7 @@ class _GridWaves:
         )
 
     def _at(self, spline: Array, x: Array) -> Array:
-        """Values of a tile at places X on it and at the Y of the nodes."""
+        """Values of a tile at positions x on it and at the y of the nodes."""
         places = np.broadcast_arrays(x * (REFINEMENT / self.pixel[0]), self.y / self.pixel[1])
         result = scipy.ndimage.map_coordinates(
             spline, places, order=3, mode="grid-wrap", prefilter=False
@@ -221,8 +222,8 @@ class _GridWaves:
 def _on_fewer_pixels(
     spectrum: Spectrum, transfer: Transfer, limits: tuple[float, float]
 ) -> tuple[Spectrum, Transfer]:
-    """Return a tile without waves of limits [1/a] and more on the pixels that a spline needs."""
-    # two pixels for each that the waves need
+    """Return a tile of waves below limits [1/a], with no more pixels than a spline needs."""
+    # twice as many pixels as the waves need
     nx, ny = (
         min(n, 4 * (int(limit * pixel * n / (2.0 * math.pi)) + 1))
         for n, pixel, limit in zip(spectrum.shape, spectrum.pixel, limits, strict=True)

@@ -26,14 +26,14 @@ class Predictions:
     case
         The case of the run.
     tiles
-        Surfaces by group that replace those of the case; of a large one a part.
+        Surfaces by group that replace those of the case; of a large surface only a part.
     whole
         Whether all `tiles` are whole surfaces, not parts.
 
     Attributes
     ----------
     why_none
-        Why the waves that the grid omits are not predicted; '' if they are.
+        Why the contribution of waves that the grid omits is not predicted; '' if it is.
     """
 
     why_none = ""
@@ -44,7 +44,7 @@ class Predictions:
         self._resolved = self._passed = False
 
     def begin(self, solver: SolverHandle) -> None:
-        """Pass a solver the predicted start, if it needs one."""
+        """Pass the predicted initial pressure to a solver, if it needs one."""
         if start_fronts(solver).size:
             from pyehl.simulation.initial_condition import transfer  # noqa: PLC0415
 
@@ -79,7 +79,7 @@ class Predictions:
             return
         result = self._resolution_once()
         if isinstance(result, str):
-            # the status alone: the plan has the message
+            # only the status: the plan prints the message
             why = result.partition(": ")[0]
             self.why_none = f"the contribution of the omitted waves is not predicted ({why})"
             take_prediction(solver, math.nan, math.nan)

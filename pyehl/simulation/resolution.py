@@ -21,11 +21,11 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.types import Settings
 
 NODES = 8
-"""Nodes that a wave needs to be resolved."""
+"""Nodes per wavelength above which a wave counts as resolved."""
 ON_GRID = 2
-"""Nodes that a wave needs to be on the grid at all."""
+"""Nodes per wavelength below which a grid cannot represent a wave."""
 TOLERANCE = 0.01
-"""Fraction of mu_r/mu_s from waves that are not resolved, above which there is a warning."""
+"""Fraction of mu_r/mu_s from unresolved waves above which there is a warning."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +36,8 @@ class Resolution:
     # The same without the waves that have fewer than NODES, or ON_GRID nodes [-]
     resolved: float
     on_grid: float
-    shortest: float  # wavelength that has NODES nodes [m]
-    part: str = ""  # which part of a large surface it was predicted with; empty: the whole
+    shortest: float  # wavelength of NODES nodes [m]
+    part: str = ""  # part of a large surface that was used; empty: all of it
 
     @property
     def matters(self) -> bool:
@@ -45,7 +45,7 @@ class Resolution:
         return abs(self.unresolved) > TOLERANCE * self.mu_ratio
 
     def __str__(self) -> str:
-        """Describe it in a line."""
+        """Describe it in one line."""
         increase, part = self.mu_ratio - 1.0, self.unresolved
         return (
             f"predicted   mu_r/mu_s {self.mu_ratio:.3f}; of the increase {increase:+.3f}, "
@@ -81,10 +81,10 @@ class Resolution:
 def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Resolution | None:
     """Predict what the grid of a case resolves.
 
-    None for surfaces other than moving tiles of heights, and for those without waves that the
-    grid does not resolve. `tiles` are the surfaces by group on their tracks, of a large one a part,
-    before their spectrum is cut; a missing one is made as the case states, of a large one the
-    part of :func:`pyehl.surfaces.part_of`. EhlError if the smooth contact has no solution, or the
+    None if no surface is a moving map or fractal, and if the grid resolves all waves. `tiles` are
+    the surfaces by group, on their tracks and before their spectrum is cut; a tile may be a part
+    of a large surface. A surface that is not given is made from the case, and of a large one only
+    :func:`pyehl.surfaces.part_of` is used. EhlError if the smooth contact has no solution, or the
     prediction gives no ratio; InputError or FileError if a surface is not usable.
     """
     settings = case.resolve()
@@ -102,7 +102,7 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
     if not operating.ellipse.is_line:
         # the cells of a strip are nearly square
         mesh = max(mesh, 2.0 * float(grid["y_extent"]) / (int(grid["points_y"]) - 1))
-    # the amplitude of one of two surfaces may be relative to the film; else that is not needed
+    # with two surfaces, the amplitude of one may be relative to the film
     film = formula_film(operating, lubricant) if len(groups) > 1 else 0.0
     result = [_tile(settings, group, (tiles or {}).get(group), operating, film) for group in groups]
     shortest = NODES * mesh * operating.hertz_radius
@@ -126,7 +126,7 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
 def _tile(
     settings: Settings, group: str, tile: Topography | None, operating: AnyContact, film: float
 ) -> tuple[Topography, str]:
-    """Surface of a group with a film h_c [m], and its name where it is not the whole of it."""
+    """Surface of a group with a film h_c [m], and its name if it is only a part."""
     if tile is not None:
         tile = surfaces.finished(tile, {**settings[group], "track": 0.0})
         return tile, tile.origin

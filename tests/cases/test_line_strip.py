@@ -259,5 +259,5 @@ def test_fractal_surface_on_a_strip():
     again = pyehl.solve(roller(129), {**tile, "solver.threads": 2}, check=False)
     np.testing.assert_array_equal(result.P, again.P)
     other = {**tile, "second_surface.kind": "harmonic", "second_surface.wavelength_y": 0.51}
-    with pytest.raises(pyehl.InputError, match="no width in common"):
+    with pytest.raises(pyehl.InputError, match="no common period across the motion"):
         pyehl.solve(roller(129), other)
