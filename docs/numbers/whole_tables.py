@@ -82,8 +82,7 @@ def paper() -> Values:
     make = script("paper/make.py")
     judged = (row for row in make.read("table.csv") if row["verdict"] != "not judged")
     rows = [make.line(row) for row in judged if row["piece"] != "table 1"]
-    findings = map(make.finding, make.read("findings.csv"))
-    return {"table": "\n".join([*make.HEAD, *rows]), "findings": "\n".join(findings)}
+    return {"table": "\n".join([*make.HEAD, *rows]), "findings": "\n".join(make.findings())}
 
 
 def films() -> Values:

@@ -65,7 +65,7 @@ def test_smooth_dry_limit_is_hertz(solve, root):
     hertz = np.sqrt(np.maximum(0.0, 1.0 - done.field("X")[:, None] ** 2 - done.field("Y") ** 2))
     # a film of 1e-2 a^2/R changes the pressure at the edge
     off = np.sqrt(np.mean((done.field("P") - hertz)[hertz > 0.0] ** 2))
-    assert f"that of Hertz to {within(off)} of $p_h$ (rms)" in theory(root, "contact")
+    assert f"that of Hertz within {within(off)} of $p_h$ (rms)" in theory(root, "contact")
     assert done["contact_load_share"] == pytest.approx(1.0, abs=5e-3)
     assert done["contact_area_share"] == pytest.approx(1.0, abs=2e-2)
     assert 0.0 < done["contact_load_share_error"] < 0.01

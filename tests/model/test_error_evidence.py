@@ -41,12 +41,9 @@ def test_estimate_of_the_domain(root: Path, beside):
     """What `fit.py` states of the contacts that the estimate was fitted to."""
     fit, text = beside("errors", "fit"), page(root, "errors")
     flooded, zero = (fit.shares_covered(border, "H_c") for border in ("flooded", "zero"))
-    assert (
-        f"covers {100.0 * np.mean(flooded <= 1.0):.1f} % of {flooded.size} changes of H_c" in text
-    )
-    assert f"of change to estimate, on the domain of the paper, is {flooded.max():.1f}" in text
-    covered = f"With P = 0 the estimate covers {100.0 * np.mean(zero <= 1.0):.1f} % of {zero.size}"
-    assert f"{covered} changes, and its median is 1.5 times" in text
+    covered = [f"{x.size} | {100.0 * np.mean(x <= 1.0):.1f} %" for x in (flooded, zero)]
+    assert f"| flooded | {covered[0]} | 2 | {flooded.max():.1f} (domain of the paper) |" in text
+    assert f"| P = 0 | {covered[1]} | 1.5 | |" in text
     # twice as large in the median, and 1.5 times
     assert np.median(flooded) == pytest.approx(0.5, abs=0.08)
     assert np.median(zero) == pytest.approx(1 / 1.5, abs=0.08)

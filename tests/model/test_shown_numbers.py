@@ -145,10 +145,10 @@ def test_constants_of_the_prediction(states):
     states("docs/theory/prediction.md", f"loss of film exceeds {ends:g} times the smooth film")
     states(
         "docs/theory/prediction-response.md",
-        f"regains ${film:g}\\,H_1^2/H$",
-        f"Beyond a loss of ${least:g}\\,H$",
-        f"at a loss of ${ends:g}\\,H$ the film breaks down",
-        f"The pressure increases by ${response.INLET_PRESSURE:g}\\,P_0^2$",
+        f"thicker than to first order by ${film:g}\\,H_1^2/H$",
+        f"Where $H_1$ exceeds ${least:g}\\,H$",
+        f"at $H_1 = {ends:g}\\,H$ the film breaks down",
+        f"**Pressure.** It increases by ${response.INLET_PRESSURE:g}\\,P_0^2$",
     )
     q = np.geomspace(0.1, 200.0, 20)
     gains = [edge_gain(kx, q, film) for kx in (0.0, 5.0, 20.0) for film in (0.01, 0.03, 0.1)]

@@ -112,12 +112,17 @@ def finding(row: Mapping[str, str]) -> str:
     return f"- **{row['title']}** ({row['piece']}, `--{row['tier']}`). {row['text']}"
 
 
+def findings() -> list[str]:
+    """Give the list of README.md; a finding of both tiers appears once, from the finer grids."""
+    return list(map(finding, {row["title"]: row for row in read("findings.csv")}.values()))
+
+
 def main(arguments: Sequence[str]) -> None:
     """Run if a folder is given; print the stored tables."""
     if arguments:
         make(Path(arguments[0]).resolve())
     text = [*HEAD, *(line(row) for row in read("table.csv") if row["piece"] != "table 1")]
-    text += ["", *map(finding, read("findings.csv"))]
+    text += ["", *findings()]
     sys.stdout.write("\n".join(text) + "\n")
 
 
