@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What all tests share: the program, the folder of cases, and a way to run both drivers."""
+"""What all tests share: the program, the folder of cases, and calls of both drivers."""
 
 import contextlib
 import gc
@@ -20,7 +20,7 @@ import pytest
 
 from pyehl import cli
 
-# products of small matrices are slower on several threads; before NumPy is loaded
+# products of small matrices are slower on several threads; to be set before NumPy is loaded
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -30,7 +30,7 @@ ROOT = Path(__file__).resolve().parent.parent
 def pytest_collection() -> Generator[None, object, object]:
     """Collect without the search for unused cycles, which takes a third of the time.
 
-    What is there afterwards stays until the end: later searches leave it out.
+    Objects that exist after the collection are not searched later.
     """
     gc.disable()
     try:
@@ -50,7 +50,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
 @pytest.fixture(scope="session")
 def root() -> Path:
-    """The folder of the repository."""
+    """The root folder of the repository."""
     return ROOT
 
 
@@ -63,7 +63,7 @@ def script() -> Callable[[str], ModuleType]:
         assert spec is not None
         assert spec.loader is not None
         module = importlib.util.module_from_spec(spec)
-        # dataclasses look up their module
+        # dataclasses look their module up
         sys.modules[spec.name] = module
         spec.loader.exec_module(module)
         return module
@@ -73,7 +73,7 @@ def script() -> Callable[[str], ModuleType]:
 
 @pytest.fixture
 def evidence(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[str, str], ModuleType]]:
-    """Import a module of a folder of `docs/evidence`, none of which outlives the test."""
+    """Import a module of a folder of `docs/evidence` for one test only."""
 
     def load(folder: str, name: str) -> ModuleType:
         monkeypatch.syspath_prepend(str(ROOT / "docs" / "evidence" / folder))
@@ -114,7 +114,7 @@ Driver = Callable[..., subprocess.CompletedProcess[str]]
 @pytest.fixture(scope="session")
 def drivers(ehl: str) -> dict[str, list[str]]:
     """How to call both drivers: ``ehl`` and ``pyehl run``."""
-    # -P: never the sources of the working directory
+    # -P: never import from the working directory
     return {"ehl": [ehl], "pyehl": [sys.executable, "-P", "-m", "pyehl", "run"]}
 
 
@@ -122,7 +122,7 @@ def drivers(ehl: str) -> dict[str, list[str]]:
 def command() -> Driver:
     """Call ``pyehl`` in this process: ``command(folder, "check", "case.nml")``.
 
-    Its start would take longer than most of what is tested. After `seconds` the test fails.
+    A new process would take longer than most of what is tested. After `seconds` the test fails.
     """
 
     def call(

@@ -52,7 +52,7 @@ PATIENCE = 120.0
 
 
 class Served:
-    """A server in a thread, its address, and the pages that it made."""
+    """A server in a thread, its address, and the pages that it created."""
 
     def __init__(self, start: Position) -> None:
         self.pages: list[Page] = []
@@ -83,7 +83,7 @@ class Served:
 
 
 class Tab:
-    """The page in a browser, by the names of what is on it."""
+    """The page in a browser; its models are addressed by name."""
 
     def __init__(self, driver: webdriver.Chrome, address: str) -> None:
         self.driver = driver
@@ -102,7 +102,7 @@ class Tab:
         return result
 
     def get(self, name: str, what: str) -> Any:
-        """Give a property of a model, as it is in the browser."""
+        """Give a property of a model, as the browser has it."""
         return self.run(
             "const m = Bokeh.documents[0].get_model_by_name(arguments[0]);"
             "return m === null ? null : m[arguments[1]]",
@@ -111,7 +111,7 @@ class Tab:
         )
 
     def element(self, name: str, selector: str) -> WebElement:
-        """Give an element of a widget."""
+        """Give an HTML element of a widget."""
         return self.until(
             lambda: self.run(
                 f"{FIND} return found && found.shadow_el.querySelector(arguments[1])",
@@ -121,7 +121,7 @@ class Tab:
         )
 
     def words(self, name: str) -> str:
-        """Give the text that is seen of a widget."""
+        """Give the visible text of a widget."""
         script = (
             f"{FIND} const box = found.el.getBoundingClientRect();"
             "if (box.height === 0) return '';"
@@ -130,14 +130,14 @@ class Tab:
         return str(self.run(script, name))
 
     def stamp(self) -> tuple[int, int, int] | None:
-        """Give the generations asked for and shown, and the nodes a side of the film shown."""
+        """Give the generations requested and shown, and the nodes per side of the film shown."""
         return self.run(
             "const m = Bokeh.documents[0].get_model_by_name('stamp');"
             "return m && [m.data.asked[0], m.data.generation[0], m.data.points[0]]"
         )
 
     def settle(self, points: int = 513) -> None:
-        """Wait for the answer of where the controls are, on a grid or a finer one."""
+        """Wait for the result at the present controls, on a grid of at least `points` nodes."""
 
         def there() -> bool:
             asked, shown, nodes = self.stamp() or (0, -1, 0)
@@ -146,7 +146,7 @@ class Tab:
         self.until(there)
 
     def type(self, name: str, text: str, *, wait: bool = True) -> None:
-        """Type into the field of a control, as a person does."""
+        """Type into the field of a control, as a user does."""
         asked = self.stamp()[0]
         field = self.element(name, "input")
         old = field.get_attribute("value")
@@ -155,21 +155,21 @@ class Tab:
             self.until(lambda: self.stamp()[0] > asked or self.get(f"error_{name}", "text"))
 
     def curve(self) -> dict[str, list[float | None]]:
-        """Give the points of the film over a control."""
+        """Give the points of the film over the range of a control."""
         return self.run(
             "const data = Bokeh.documents[0].get_model_by_name('curve of film').data;"
             "return Object.fromEntries(['place', 'value'].map(k => [k, [...data[k]]]))"
         )
 
     def choose(self, name: str, word: str) -> None:
-        """Choose a word."""
+        """Choose an option of a control."""
         self.element(name, f"option[value='{word}']").click()
 
 
 @pytest.fixture(scope="module")
 def served() -> Iterator[Served]:
     position, _ = from_case(Case())
-    # a closed tab is gone after 5 s here, and not after 30 s
+    # a closed tab is removed after 5 s here, not after 30 s
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(server, "UNUSED", 5_000)
         made = Served(position)
@@ -209,11 +209,11 @@ def driver(downloads: Path) -> Iterator[webdriver.Chrome]:
 
 @pytest.fixture
 def tab(driver: webdriver.Chrome, served: Served) -> Tab:
-    """Give a page that is untouched."""
+    """Open the page with untouched controls."""
     return Tab(driver, served.address)
 
 
 @pytest.fixture
 def page(tab: Tab, served: Served) -> Page:
-    """Give the page of the tab, as the server has it."""
+    """Give the object of the server for the page of the tab."""
     return served.pages[-1]

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From control to new film, measured in the browser: a script, to be run where nothing else runs.
+"""Time from a control to a new film, in the browser: a script for an otherwise idle machine.
 
     python tests/app/latency.py [TURNS]
 
-A slider is moved by the page's own JavaScript, and the time is taken until the browser has painted
-the film of that position on 129 x 129 nodes, and on 257 x 257; the latter includes the delay for
-which a control must be at rest. Prints the median and the largest of each; exit status 1 if a
-median is too long.
+JavaScript of the page moves a slider, and the time is taken until the browser has painted the film
+of that position on 129 x 129 nodes, and on 257 x 257; the latter includes the delay for which a
+control must not move. Prints the median and the maximum of each; exit status 1 if a median is too
+long.
 """
 
 import statistics
@@ -17,7 +17,7 @@ from conftest import Served, Tab, chromium
 from pyehl.app.position import from_case
 from pyehl.case import Case
 
-# Longest medians [s]
+# Largest medians allowed [s]
 ALLOWED = {129: 0.150, 257: 0.400}
 WAIT = """
 const done = arguments[arguments.length - 1];
@@ -40,7 +40,7 @@ slider.value = arguments[0];
 
 
 def measure(turns: int) -> dict[int, list[float]]:
-    """Seconds from control to film, by the nodes a side."""
+    """Measure the seconds from control to film, by nodes per side."""
     served = Served(from_case(Case())[0])
     times: dict[int, list[float]] = {points: [] for points in ALLOWED}
     try:
@@ -59,7 +59,7 @@ def measure(turns: int) -> dict[int, list[float]]:
 
 
 def main() -> int:
-    """Print what was measured."""
+    """Print the measured times."""
     times = measure(int(sys.argv[1]) if len(sys.argv) > 1 else 30)
     failed = False
     for points, seconds in times.items():

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Many tabs at once: a script, to be run where nothing else runs.
+"""Many tabs at once: a script for an otherwise idle machine.
 
     python tests/app/tabs.py [TABS]
 
-As many tabs ask `pyehl app` for its page at the same time and open its socket, as browsers do.
-Prints when the last of them had both; exit status 1 if that took more than 20 s.
+Many tabs request the page of `pyehl app` and open its socket at the same time, as browsers do.
+Prints when the last one had both; exit status 1 if that took more than 20 s.
 """
 
 import asyncio
@@ -21,7 +21,7 @@ ALLOWED, PATIENCE = 20.0, 300.0
 
 
 async def tab(address: str, began: float) -> tuple[float, float]:
-    """Seconds until a tab has its page, and its socket."""
+    """Give the seconds until a tab has its page, and its socket."""
     waits = {"request_timeout": PATIENCE, "connect_timeout": PATIENCE}
     answer = await AsyncHTTPClient().fetch(HTTPRequest(address, **waits))
     page = time.perf_counter() - began

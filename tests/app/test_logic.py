@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the page does, without a browser: controls, cases, words, pictures."""
+"""Logic of the page, without a browser: controls, cases, words, pictures."""
 
 import resource
 import threading
@@ -39,7 +39,7 @@ def test_sliders_reach_their_ends(name):
     assert control.at(STEPS) == pytest.approx(control.high)
     values = [control.at(place) for place in range(STEPS + 1)]
     assert values == sorted(values)
-    # three digits are less than a step of wide ranges
+    # three digits are finer than a step of wide ranges
     assert all(abs(control.place(float(v)) - k) <= 3 for k, v in enumerate(values))
 
 
@@ -56,7 +56,7 @@ def test_a_seed_is_a_whole_number():
 
 
 def test_start_is_the_default_case(start):
-    """Untouched controls are the case of all defaults, smooth, to the last bit."""
+    """Untouched controls give the default case with smooth surfaces, bit for bit."""
     ours, theirs = start.case(129).resolve(), Case(grid={"points": 129}).resolve()
     for group in ("contact", "lubricant", "grid", "surface"):
         assert ours[group] == theirs[group]
@@ -77,7 +77,7 @@ CASES = {
 
 @pytest.mark.parametrize("text", CASES.values(), ids=CASES)
 def test_opened_case_is_the_case(text):
-    """Controls where a case states, and back: the same values of all keys."""
+    """A case that is opened in the page and read back has the same values of all keys."""
     case = Case.from_text(text, {"grid.points": 65})
     position, note = from_case(case)
     assert not note
@@ -85,7 +85,7 @@ def test_opened_case_is_the_case(text):
     for group, keys in theirs.items():
         for key, value in keys.items():
             if key == "alpha_origin":
-                continue  # the control gives it as a number
+                continue  # the control returns it as a number
             assert ours[group][key] == (pytest.approx(value, rel=1e-11) if isinstance(value, float)
                                         else value), f"{group}.{key}"  # fmt: skip
     again, _ = from_case(Case.from_text(position.text(65)))
@@ -122,7 +122,7 @@ def test_moduli_of_the_bodies_of_a_case_are_kept():
         position.values[name] for name in ("modulus_1", "poisson_1", "modulus_2", "poisson_2")
     ]
     assert result == [208.0, 0.28, 207.0, 0.3]
-    # there and back: no jump
+    # to the opened case and back: the controls do not jump
     back = position.turned("modulus_1", 150.0).turned("modulus_1", 208.0)
     expected = case.resolve()["contact"]["reduced_modulus"]
     assert back.reduced_modulus() == pytest.approx(expected, rel=1e-10)
@@ -137,7 +137,7 @@ def test_a_turned_ellipse_is_drawn_at_its_angle():
     made, edge = drawing.film_map(result), Outline(result.point.ellipse.ellipticity, 30.0)
     radius = result.point.hertz_radius * 1e3
     for half, axis in zip(edge.reach, (made.x, made.y), strict=True):
-        # the whole ellipse and some more, and no more than that
+        # the picture shows the whole ellipse and a margin
         assert half * radius < axis[-1] <= drawing.VIEW * half * radius
     for half, line in zip(edge.chords, drawing.centre_lines(result).values(), strict=True):
         inside = np.abs(line["place"]) < half * radius
@@ -153,7 +153,7 @@ def test_the_film_is_kept_while_the_surface_is_turned(start, monkeypatch):
     monkeypatch.setattr(answers.api, "film", lambda case: asked.append(1) or formulas(case))
     rough = position.turned("surface", "fractal").turned("seed", 7)
     assert answers.film(rough, 65, always, known) is known[65]
-    # another grid of it has its formulas
+    # on another grid the formulas are the same
     finer = answers.film(rough, 129, always, known)
     assert finer.points == 129
     assert not asked
@@ -249,7 +249,7 @@ def test_rough_contact_is_that_of_a_prediction(start):
     mean = rows["μ_r/μ_s, mean and scatter of 8 tracks"]
     assert mean == words.with_error(*prediction.tracks)
     assert list(rows.values()).index(mean) < list(rows).index("μ_r/μ_s of one track")
-    # the film ratio is that of the numbers beside it, whatever grid they are of
+    # the film ratio is that of the film and roughness shown beside it, on any grid
     film = answers.film(position, 129, lambda: True)
     h_min, sigma = float(film.summary["h_min_m"]), prediction.summary["rms_height_m"]
     shown = dict(words.rough_rows(result, film))["film ratio Λ = h_min/σ"]
@@ -325,7 +325,7 @@ def test_curve(start):
     ],
 )
 def test_regimes(moes_m, moes_l, name, power):
-    """The film goes with M as the asymptote does that is named."""
+    """The film follows M with the exponent of the regime that is named."""
     assert regime(moes_m, moes_l) == name
     films = [nijenbanning_venner_moes(m, moes_l) * m ** (2 / 3) for m in (moes_m, 1.01 * moes_m)]
     slope = np.log(films[1] / films[0]) / np.log(1.01)
@@ -334,7 +334,7 @@ def test_regimes(moes_m, moes_l, name, power):
 
 @pytest.mark.long
 def test_many_changes_leave_no_memory_behind(start):
-    """No solver, no thread and no memory is left of positions that were passed."""
+    """Changed positions leave no solver, no thread and no memory."""
 
     def film_and_back() -> None:
         for k in range(100):
@@ -346,14 +346,14 @@ def test_many_changes_leave_no_memory_behind(start):
     threads = threading.active_count()
     for _ in range(4):
         film_and_back()
-    # kilobytes: less than 20 for a turn
+    # kilobytes: less than 20 per change
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 8_000
-    # those of earlier tests may end
+    # threads of earlier tests may end
     assert threading.active_count() <= threads
 
 
 def test_contact_without_friction_of_the_boundary_film():
-    """Of an opened case that has a boundary film; the page has no control for it."""
+    """An opened case may have a boundary film, for which the page has no control."""
     text = """&contact load = 20.0 mean_velocity = 0.3 radius = 0.0127 slide_to_roll = 0.1 /
     &lubricant shear_law = 'eyring' boundary_film = 1.3e-7 {} /
     &surface kind = 'fractal' rms_height = 3e-8 length_x = 1.2e-4 length_y = 1.2e-4 pixels = 32 /"""
@@ -363,7 +363,7 @@ def test_contact_without_friction_of_the_boundary_film():
         assert ("boundary_friction" in rows.get("μ_r/μ_s", "")) != known
         assert ("over the passage" in rows) == ("friction μ" in rows) == known
         assert not [row for row in rows.values() if "nan" in row]
-    # friction of the smooth contact stands twice, each time with its grid
+    # friction of the smooth contact is shown twice, each time with its grid
     assert "; smooth 0." in rows["friction μ"]
     assert rows["friction μ"].endswith("solved on 257 x 257 nodes, extrapolated")
     thick, _ = from_case(Case.from_text(text.format(friction).replace("1.3e-7", "1e-9")))
@@ -372,7 +372,7 @@ def test_contact_without_friction_of_the_boundary_film():
 
 
 def test_pictures_without_data_are_replaced_by_a_sentence(monkeypatch):
-    """No empty axes; what the browser is sent is what is there."""
+    """A sentence replaces empty axes; the browser gets only pictures that exist."""
     pictures = Pictures()
     rough = (pictures.before, pictures.after, pictures.bands, pictures.over)
     assert not any(picture.visible for picture in (*rough, *pictures.curves))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page in a real browser, headless: what a person sees and does."""
+"""The page in a real browser, headless: what a user sees and does."""
 
 import ctypes
 import gc
@@ -19,7 +19,7 @@ from pyehl.cli import main
 
 
 def rows_of(tab, name: str) -> dict[str, str]:
-    """Give names and values of a table when they are what is seen."""
+    """Give names and values of a table once they are visible."""
 
     def shown() -> list[list[str]] | None:
         cells = tab.run(
@@ -36,7 +36,7 @@ def rows_of(tab, name: str) -> dict[str, str]:
 
 
 def test_numbers_are_those_of_pyehl_run(tab, tmp_path, capsys):
-    """A typed load, a dragged slider: to the last digit shown what ``pyehl run`` prints."""
+    """A typed load and a dragged slider: all digits shown are those of ``pyehl run``."""
     tab.type("load", "250")
     handle = tab.element("slider_velocity", ".noUi-handle")
     before = tab.stamp()[0]
@@ -118,7 +118,7 @@ def test_refused_maps_show_the_message_of_the_reader(tab, page, tmp_path):
     (tmp_path / "case.nml").write_text(text)
     prediction = pyehl.predict(tmp_path / "case.nml")
     assert rows["μ_r/μ_s of one track"].startswith(f"{prediction.mu_ratio:.3f} ±")
-    # where the map lies is nowhere on the page
+    # the page does not show the path of the map
     everything = json.dumps(page.document.to_json(), default=str)
     place = Path(page.uploads.files["ground.npy"]).parent.parent
     assert place.name not in everything
@@ -127,7 +127,7 @@ def test_refused_maps_show_the_message_of_the_reader(tab, page, tmp_path):
 
 @pytest.mark.long
 def test_a_surface_set_to_smooth_leaves_nothing(tab, page):
-    """An answer of the rough contact that comes afterwards is not shown."""
+    """An answer of the rough contact that arrives later is not shown."""
     late = []
     deliver = page.worker.deliver
 
@@ -144,7 +144,7 @@ def test_a_surface_set_to_smooth_leaves_nothing(tab, page):
     tab.until(lambda: late)
     tab.choose("surface", "smooth")
     tab.until(lambda: not tab.get("rough", "text"))
-    # as of a prediction that ended when the control was turned already, before any newer answer
+    # as if a prediction ended after the control was changed, before any newer answer
     deliver(*late[0])
     page.soon(lambda: page.layout.note.update(text="it came"))
     tab.until(lambda: tab.get("note", "text") == "it came")
@@ -234,7 +234,7 @@ def test_two_tabs_do_not_disturb_each_other_and_end(tab, served, monkeypatch):
 
 @pytest.mark.long
 def test_an_older_answer_never_replaces_a_newer_one(tab, page):
-    """The slider is moved many times without a pause; what is seen belongs to its last place."""
+    """After many fast moves of the slider, the result of its last position is shown."""
     answers = []
     deliver = page.worker.deliver
 
@@ -297,7 +297,7 @@ def test_nothing_else_is_served(served, path):
 
 
 def test_only_this_machine_and_this_page(served):
-    """The socket listens at 127.0.0.1 alone, and takes no page of another origin."""
+    """The socket listens only at 127.0.0.1, and accepts no page of another origin."""
     listening = [
         line.split()[1]
         for table in ("/proc/net/tcp", "/proc/net/tcp6")
@@ -317,7 +317,7 @@ def test_only_this_machine_and_this_page(served):
         connection.request("GET", "/ws", headers={**head, "Origin": origin})
         status = connection.getresponse().status
         connection.close()
-        # this page's own origin gets past the check, and fails for its token alone
+        # the origin of this page passes the check, and fails only for its token
         assert (status == 403) == (expected == 403), (origin, status)
 
 
@@ -325,7 +325,7 @@ def test_only_this_machine_and_this_page(served):
     "host", ["localhost", "evil.example", "127.0.0.1.evil.example", "localhost.", ""]
 )
 def test_requests_with_other_host_names_are_refused(served, host):
-    """A name that was bound to the loopback gets nothing, not even by its own origin."""
+    """A host name bound to the loopback is refused, even from its own origin."""
     head = {"Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Version": "13"}
     head["Sec-WebSocket-Key"] = "dGhlIHNhbXBsZSBub25jZQ=="
     for path in ("/", "/ws", "/metadata", "/static/js/bokeh.min.js"):
@@ -346,7 +346,7 @@ def test_requests_with_other_host_names_are_refused(served, host):
     ],
 )
 def test_many_changes_in_the_browser(tab, served, count: int, kilobytes: int):
-    """Memory of the server stays what it is, apart from what the allocator keeps for itself."""
+    """Memory of the server stays constant, apart from what the allocator keeps."""
 
     def held() -> int:
         gc.collect()

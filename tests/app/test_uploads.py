@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Uploaded height maps: read, refused, removed; no other file of the machine is named."""
+"""Uploaded height maps: read, refused, removed; no other file of the machine can be named."""
 
 from pathlib import Path
 
@@ -29,7 +29,7 @@ def test_refused_uploads_show_the_message_of_the_reader(tmp_path):
     assert uploads.nameless(f"in {path}") == "in ground.npy"
     with pytest.raises(InputError, match=r"bad\.npy"):
         uploads.add("bad.npy", b"\x93NUMPY nonsense", size)
-    # a bad file leaves the good one of its name
+    # a bad file does not replace the good one of the same name
     with pytest.raises(InputError, match=r"^ground\.npy"):
         uploads.add("ground.npy", b"\x93NUMPY nonsense", size)
     assert Path(path).read_bytes() == heights.read_bytes()

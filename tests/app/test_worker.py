@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The thread of a page: the newest job alone, exceptions, its end."""
+"""The thread of a page: it runs only the newest job; exceptions; its end."""
 
 import threading
 import time
@@ -53,7 +53,7 @@ def test_worker_reports_an_exception_and_continues():
 
 
 def test_closed_worker_stops_a_solver():
-    """A tab that is closed does not compute on."""
+    """Closing a tab stops its computation."""
     start, _ = from_case(Case())
     worker = Worker(lambda generation, answer: None)
     began = threading.Event()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs of the program that several tests use: each is made once."""
+"""Runs of the program that several tests share: each is made once."""
 
 import csv
 import json
@@ -20,7 +20,7 @@ import pyehl
 Array = NDArray[np.float64]
 HERE = Path(__file__).resolve().parent
 COMPLETED = ("bodies.", "lubricant.name", "lubricant.kinematic", "lubricant.table")
-"""Keys of which Python makes what the program reads."""
+"""Keys from which Python derives keys for the program."""
 
 
 @dataclass(frozen=True)
@@ -64,9 +64,9 @@ def solve(
 ) -> Solve:
     """Run the program: ``solve((M, L), points, {"group.key": value})``.
 
-    The summary of `ehl` has numbers; with `words` the run is by ``pyehl run``, with sentences.
+    The summary of `ehl` has numbers; with `words` the run is made by ``pyehl run``, with sentences.
     Without an operating point (None) the contact is that of the settings, in SI units by default.
-    Fields are written only if asked for. A run that takes longer than `timeout` seconds fails.
+    Fields are written only on request. A run that takes longer than `timeout` seconds fails.
     """
     place = tmp_path_factory.mktemp("runs")
     (place / "case.nml").write_text("! all from the command line\n")
@@ -132,7 +132,7 @@ def solve(
 
 @pytest.fixture(scope="session")
 def table() -> Callable[[str], list[dict[str, str]]]:
-    """Rows of a table of reference data in this folder; '#' lines state where they come from."""
+    """Rows of a table of reference data in this folder; its '#' lines state the source."""
 
     def read(name: str) -> list[dict[str, str]]:
         lines = (HERE / name).read_text().splitlines()

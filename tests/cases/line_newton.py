@@ -116,7 +116,7 @@ class Line:
             residual, jacobian = self.linearised(p, gap, viscosity, wedge)
             residual[:-1] -= wedge @ self.mass(p, h00, curvature) + past
             residual[-1] = h * p.sum() - load * np.pi / 2.0
-            # without pressure where the pressure that a node alone would need is negative
+            # zero pressure where the node alone would need a negative one
             alone = p[inner] - residual[inner] / jacobian[inner, inner]
             held = np.r_[0, inner[alone <= 0.0], n]
             jacobian[held], residual[held] = 0.0, p[held]
@@ -136,7 +136,7 @@ class Line:
         return p, h00
 
     def films(self, p, h00, curvature=1.0):
-        """Central film by a cubic through four nodes, the minimum by a parabola."""
+        """Central film by a cubic through four nodes, minimum film by a parabola."""
         x, gap = self.x, self.gap(p, h00, curvature)
         centre, least = np.searchsorted(x, 0.0), int(gap.argmin())
         around = slice(centre - 2, centre + 2)
@@ -147,7 +147,7 @@ class Line:
 def solve(
     moes_m: float, moes_l: float, intervals: int, film: float, domain: tuple[float, float]
 ) -> tuple[float, float]:
-    """Central and minimum film [b^2/R] of a steady contact; `film`: a guess of the central one."""
+    """Central and minimum film [b^2/R] of a steady contact; `film`: guess of the central one."""
     line = Line(moes_m, moes_l, intervals, domain)
     p = np.sqrt(np.maximum(0.0, 1.0 - line.x**2))
     return line.films(*line.newton(p, film - 0.25 - 0.5 * np.log(2.0)))
@@ -156,9 +156,10 @@ def solve(
 def march(
     line: Line, film: float, times: np.ndarray, duty: Sequence[Mapping[str, float]]
 ) -> np.ndarray:
-    """Central film and the least at a node over time, (n, 2), by BDF2 in steps of any length.
+    """Central film and smallest nodal film over time, (n, 2), by BDF2 with variable steps.
 
-    From the steady contact of the first state on; what `newton` takes holds at each time.
+    Starts from the steady contact of the first state; the arguments of `newton` are given for each
+    time.
     """
     p = np.sqrt(np.maximum(0.0, 1.0 - line.x**2))
     p, h00 = line.newton(p, film - 0.25 - 0.5 * np.log(2.0), **duty[0])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The model of Zhang et al. 2019, section 3, of a tile: as it is asked for in tests."""
+"""The model of Zhang et al. 2019, section 3, for one tile: short calls for tests."""
 
 from dataclasses import replace
 
@@ -39,12 +39,12 @@ def predict_friction(
 def contributions(
     tile: Topography, operating: OperatingPoint, oil: Lubricant, film: float
 ) -> list[Band]:
-    """What each octave adds."""
+    """Contribution of each octave."""
     return run(passage(tile, operating, oil, film), 0)[2]
 
 
 def response(
     tile: Topography, operating: OperatingPoint, options: ModelOptions | None = None
 ) -> Response:
-    """Pressure and deformed roughness of a tile, in a film of a metre."""
+    """Pressure and deformed roughness of a tile in a film of one metre."""
     return predict_friction(tile, operating, Lubricant(), 1.0, options).response

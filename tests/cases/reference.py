@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Closed forms and published numbers to compare results with.
 
-A leaf: it imports nothing of this package, and nothing that computes results imports it, so that
-a test against it can fail.
+It imports nothing of this package, and nothing that computes results imports it, so that a test
+against it can fail.
 """
 
 import csv
@@ -78,7 +78,7 @@ FIG_2 = {
 class SmoothRow:
     """Central and minimum film of a smooth contact in Hertz units, by points per side.
 
-    `h_c` and `h_min` go with `points`; `limit_c` and `limit_min` are Richardson limits.
+    `h_c` and `h_min` belong to `points`; `limit_c` and `limit_min` are Richardson limits.
     """
 
     moes_m: float
@@ -94,7 +94,7 @@ class SmoothRow:
 
 
 def _table(name: str) -> list[dict[str, str]]:
-    """Rows of a table in pyehl/studies/references, which states where its values are from."""
+    """Rows of a table in pyehl/studies/references, which states the source of its values."""
     text = resources.files("pyehl").joinpath("studies", "references", name).read_text("utf-8")
     return list(csv.DictReader(x for x in text.splitlines() if not x.startswith("#")))
 
@@ -146,4 +146,4 @@ WAVINESS = tuple(
     )
     for row in _table("waviness.csv")
 )
-"""Moving waviness. The last row is damped by its scheme: right arithmetic, wrong physics."""
+"""Moving waviness. The last row shows the damping of its scheme: it tests the arithmetic only."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A second solver of the same discrete equations, to check the first.
 
-It shares nothing with the first but the equations: no coarser grids, no multi-integration, no
+The two share only the equations: this one has no coarser grids, no multi-integration and no
 relaxation. Each time step is solved by Newton's method with the cavitated nodes as an active set;
 the linear systems by GMRES, with the LU factors of an earlier, full matrix as preconditioner.
 """
@@ -25,15 +25,15 @@ ALPHA, P_0, Z = 2.2e-8, 1.96e8, 0.6684
 X_INLET, X_OUTLET = -2.5, 1.5
 START = X_INLET
 VELOCITY = 1.01
-# The roughness changes nothing before its front, with half its length, is here
+# The roughness has no effect until its front plus half a wavelength is at this X
 X_MATTERS = -1.25
 # Residual (rms) and error of the load of a solution
 ENOUGH, LOAD_ENOUGH = 1e-8, 1e-9
 # Relative change of the border of a flooded contact at its end
 FLOODED_ENOUGH = 1e-6
-# More products with the matrix than this, and its factors are made anew
+# The factors are made anew after more products with the matrix than this
 PATIENCE = 30
-# Columns of the full matrix that are made at once
+# Columns of the full matrix that are computed at once
 BLOCK = 500
 
 
@@ -48,7 +48,7 @@ def cell(dx: Array, dy: Array, h: float) -> Array:
 
 
 class NotSolvedError(Exception):
-    """Newton's method has come to no end."""
+    """Newton's method did not converge."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,12 +120,12 @@ class SecondSolver:
         pattern = sparse.coo_array(sum(self.neighbours, concerned))
         here, there = pattern.coords
         self.near = sparse.csr_array((self.kernel(there, here), (here, there)), pattern.shape)
-        # LU factors of a full matrix, and the nodes it was made for
+        # LU factors of a full matrix, and the nodes for which it was computed
         self.factors: Any = None
         self.set: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
 
     def at(self, di: int, dj: int) -> sparse.csr_array:
-        """Matrix that takes values from a number of nodes further; 0 from outside."""
+        """Matrix that takes values from nodes shifted by (di, dj); 0 from outside."""
         i, j = np.meshgrid(np.arange(self.points), np.arange(self.rows), indexing="ij")
         to = (i + di, abs(j + dj))
         good = ((to[0] >= 0) & (to[0] < self.points) & (to[1] < self.rows)).ravel(order="F")
@@ -135,7 +135,7 @@ class SecondSolver:
         return sparse.csr_array((np.ones(row.size), (row, column)), shape)
 
     def kernel(self, of: NDArray[np.intp], by: NDArray[np.intp]) -> Array:
-        """Deflection of nodes by the pressure of nodes and of their mirror images."""
+        """Deflection of nodes `of` by the pressure of nodes `by` and of their mirror images."""
         across = abs(self.column[of] - self.column[by])
         image = self.cells[across, self.row[of] + self.row[by]] * (self.row[by] > 0)
         return np.asarray(self.cells[across, abs(self.row[of] - self.row[by])] + image)
@@ -216,7 +216,7 @@ class SecondSolver:
     ) -> Array:
         """Give the changes of P and of H00; the pressure of fixed nodes becomes 0."""
         n = fixed.size
-        # all equations in units of their own pressure
+        # scales all equations to pressure
         free = sparse.diags_array(np.where(fixed, 0.0, 1.0 / diagonal))
         by_film, by_p = (free @ by_film).tocsr(), (free @ by_p).tocsr()
         wanted = np.append(np.where(fixed, -rest[:n], -rest[:n] / diagonal), -rest[n])
@@ -287,7 +287,7 @@ class SecondSolver:
         return p, h00, film
 
     def steps(self, *waves: Wave) -> Iterator[tuple[float, Array]]:
-        """mu_r/mu_s and the film after each step, of the mesh size, of a sum of waves."""
+        """mu_r/mu_s and the film after each step of one mesh size, for a sum of waves."""
         shape = 0.5 * (self.x**2 + self.radius_ratio * self.y**2)
         p, h00, film = self.smooth()
         smooth = self.friction(p, film)

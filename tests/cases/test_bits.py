@@ -10,8 +10,8 @@ import pytest
 
 import pyehl
 
-# Words of the summary that speak of the threads and their work space; none that has seconds is a
-# result either
+# Parts of the names of numbers that depend on the threads and their workspace; seconds are no
+# results either
 NOT_RESULTS = {"threads", "bytes"}
 SIZE = {"surface.length_x": 8.29e-4, "surface.length_y": 8.29e-4}
 HARMONIC = {
@@ -26,7 +26,7 @@ FULL = {"solver.symmetry": "full"}
 
 
 def results(folder: Path) -> dict[str, object]:
-    """All that a folder holds but times and the number of threads."""
+    """Everything in a folder except times and the number of threads."""
     content: dict[str, object] = {}
     for path in folder.iterdir():
         if path.name == "summary.json":
@@ -61,7 +61,7 @@ def test_threads(solve, points: int, case: dict[str, object], engine: str):
     ]
     one, *others = runs
     assert tuple(run["threads"] for run in runs) == numbers
-    assert one["status"] in ("converged", "not settled")  # of a few steps no mean is asked
+    assert one["status"] in ("converged", "not settled")  # a few steps give no mean
     expected = results(one.folder)
     assert {"P.npy", "H.npy", "P_smooth.npy", "H_smooth.npy", "history.csv", "H_c"} <= set(expected)
     assert all(results(other.folder) == expected for other in others)
@@ -72,7 +72,7 @@ def test_drivers(drivers, tmp_path: Path, case: dict[str, object]):
     """A rough contact by `ehl` and by `pyehl run`: the same bits."""
     settings = case | {"grid.points": 65}
     if case["surface.kind"] == "fractal":
-        # `ehl` reads the map that `pyehl` makes
+        # `ehl` reads the map that `pyehl` writes
         tile = tmp_path / "tile.npy"
         rng = np.random.default_rng(1)
         np.save(tile, 2e-8 * rng.standard_normal((8, 8)))
@@ -93,10 +93,10 @@ def test_drivers(drivers, tmp_path: Path, case: dict[str, object]):
         # a mean of 12 steps has not settled
         assert (done.returncode, done.stderr) == (1, "")
     one, two = results(tmp_path / "ehl"), results(tmp_path / "pyehl")
-    # Python adds its words, and how it took a map
+    # Python adds sentences, and how it prepared a map
     assert two["files"].remove("plan.txt") is None
     two = {name: two[name] for name in one}
-    # that of pyehl has the meaning of each key
+    # the summary of pyehl has the meaning of each key
     cases = [pyehl.Case(tmp_path / name / "case.nml") for name in ("ehl", "pyehl")]
     assert cases[0] == cases[1]
     assert one | {"case.nml": ""} == two | {"case.nml": ""}
@@ -105,7 +105,7 @@ def test_drivers(drivers, tmp_path: Path, case: dict[str, object]):
 @pytest.mark.parametrize("point", [(200.0, 10.0), (1000.0, 10.0)])
 @pytest.mark.parametrize("points", [129, 257])
 def test_half_domain(solve, point: tuple[float, float], points: int):
-    """Half the domain with folded kernels is the whole problem: nothing but rounding differs."""
+    """Half the domain with folded kernels equals the whole domain to rounding."""
     half, whole = (
         solve(point, points, {"solver.symmetry": symmetry}, fields=True)
         for symmetry in ("auto", "full")
@@ -123,7 +123,7 @@ def test_half_domain(solve, point: tuple[float, float], points: int):
 
 @pytest.mark.parametrize("even", [True, False])
 def test_half_domain_for_an_even_map(solve, tmp_path: Path, even: bool):
-    """A tile whose rows mirror each other needs half the domain; one that is not even does not."""
+    """A tile whose rows mirror each other needs half the domain; any other needs all of it."""
     i, j = np.meshgrid(np.arange(32), np.minimum(np.arange(32), 32 - np.arange(32)), indexing="ij")
     tile = 1e-8 * np.cos(2 * np.pi * i / 16) * np.cos(2 * np.pi * j / 8)
     if not even:

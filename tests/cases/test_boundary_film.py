@@ -19,7 +19,7 @@ STEEL = DOMAIN | {
     "contact.reduced_modulus": 2.26e11,
 }
 WAVE = {"surface.kind": "'harmonic'", "surface.wavelength": 0.5, "surface.amplitude": 0.02}
-# The waves are at rest: slide-to-roll ratio -2
+# Waves at rest: slide-to-roll ratio -2
 REST = WAVE | {"contact.slide_to_roll": -2.0, "time.estimate_error": False}
 MIXED = WAVE | {
     "contact.mean_velocity": 0.1,
@@ -41,7 +41,7 @@ ELLIPSE = {"contact.radius_x": 0.018, "contact.radius_y": 0.036}
     ids=["smooth", "wave", "rest", "eyring"],
 )
 def test_full_film_changes_no_bit(solve, case):
-    """With a boundary film below every film of the contact."""
+    """A boundary film below every film of the contact changes no bit."""
     full = STEEL | {"contact.load": 20.0} | case
     without = solve(None, 65, full, fields=True)
     with_film = solve(None, 65, full | {"lubricant.boundary_film": 1e-9}, fields=True)
@@ -58,7 +58,7 @@ def test_full_film_changes_no_bit(solve, case):
 
 
 def test_smooth_dry_limit_is_hertz(solve, root):
-    """A layer of five times the film that the inlet would make."""
+    """A boundary film five times as thick as the film of the inlet gives the Hertz contact."""
     slow = {"contact.mean_velocity": 0.05, "lubricant.boundary_film": 1e-7}
     done = solve(None, 257, STEEL | slow, fields=True, words=True)
     assert done.converged
@@ -69,13 +69,13 @@ def test_smooth_dry_limit_is_hertz(solve, root):
     assert done["contact_load_share"] == pytest.approx(1.0, abs=5e-3)
     assert done["contact_area_share"] == pytest.approx(1.0, abs=2e-2)
     assert 0.0 < done["contact_load_share_error"] < 0.01
-    # friction is that of the boundary film, which is not set
+    # friction is only that of the boundary film, whose coefficient is not set
     assert (done["mu"], done["F"]) == (None, None)
     assert "lubricant.boundary_friction" in done["mu_note"]
 
 
 def within(off: float) -> str:
-    """A deviation in per cent, rounded up, as the chapters of the theory have it."""
+    """A deviation in per cent, rounded up, as in the chapters of the theory."""
     return f"{np.ceil(1e3 * off) / 10.0:.1f} %"
 
 
@@ -85,8 +85,8 @@ def theory(root: Path, name: str) -> str:
     return "".join(plain(root / "docs" / page) for page in pages)
 
 
-# A ball on a disc in a traction machine: at 0.01 m/s the film is 3.67 nm on ever finer
-# grids, above the layer of 2.47 nm under pressure
+# Ball on disc in a traction machine: at 0.01 m/s the film in the limit of fine grids is 3.67 nm,
+# above the boundary film of 2.47 nm under pressure
 TRACTION = {
     "contact.load": 36.0,
     "contact.mean_velocity": 0.01,
@@ -115,7 +115,7 @@ TRACTION = {
     ],
 )
 def test_inlet_that_a_grid_does_not_resolve(solve, points):
-    """No load share and no friction there; the error of the film is that of the inlet."""
+    """No load share and no friction there; the error of the film is that by the inlet."""
     done = solve(None, points, TRACTION, words=True)
     assert done.converged
     for name in ("h_c_m", "h_c_error_m"):
@@ -137,7 +137,7 @@ def test_inlet_that_a_grid_does_not_resolve(solve, points):
 
 
 def test_target_error_refines_until_the_inlet_is_resolved(solve):
-    """All grids up to 129 x 129 nodes have the film of the layer, and agree."""
+    """All grids up to 129 x 129 nodes give the film of the layer, and agree."""
     touching = STEEL | {
         "contact.load": 100.0,
         "contact.mean_velocity": 0.1,
@@ -173,9 +173,9 @@ SLOW = {
     [pytest.param(257, marks=pytest.mark.long), pytest.param(513, marks=pytest.mark.slow)],
 )
 def test_load_share_that_changes_slowly(solve, points):
-    """Of a film little thicker than the boundary film: its error counts the residual that is left.
+    """The film is little thicker than the boundary film: the error includes the remaining residual.
 
-    0.501 to 0.519 on 513 to 1025 nodes with residuals below 1e-5; at the end on 513 it is 0.96.
+    0.501 to 0.519 on 513 to 1025 nodes with residuals below 1e-5; the final value on 513 is 0.96.
     """
     done = solve(None, points, SLOW)
     assert done.converged
@@ -195,7 +195,7 @@ TEMPERATURES = tuple(f"temperature_rise{part}_max_K" for part in ("", "_wall_1",
 
 @pytest.mark.parametrize("case", [{}, WAVE | {"time.steps": 20}], ids=["smooth", "wave"])
 def test_boundary_film_without_contact_changes_no_bit_of_friction_with_heat(solve, case):
-    """Heat is not switched off with it."""
+    """A boundary film does not switch the heat off."""
     light = HOT | case | {"contact.load": 20.0}
     without = solve(None, 65, light, words=True)
     layer = {"lubricant.boundary_film": 1e-8, "lubricant.boundary_friction": 0.1}
@@ -211,23 +211,23 @@ def test_boundary_film_without_contact_changes_no_bit_of_friction_with_heat(solv
 
 
 def test_friction_of_the_layer_is_heat(solve):
-    """Of a contact that is dry nearly everywhere: as under that friction by Tian & Kennedy."""
+    """The contact is dry nearly everywhere: the flash temperature agrees with Tian & Kennedy."""
     layer = {"lubricant.boundary_film": 1.5e-6, "lubricant.boundary_friction": 0.1}
     done = solve(None, 129, HOT | layer)
     assert done["contact_load_share"] > 0.9
-    # the layer does not mind the temperature
+    # the boundary film does not depend on the temperature
     assert done["mu"] == pytest.approx(done["mu_isothermal"], rel=0.01)
     assert done["mu"] == pytest.approx(0.1 * done["contact_load_share"], rel=0.05)
     walls = [done[name] for name in TEMPERATURES[1:]]
     assert np.mean(walls) == pytest.approx(done["flash_temperature_K"], rel=0.05)
-    # half of the friction, half of the heat
+    # half the friction, half the heat
     half = solve(None, 129, HOT | layer | {"lubricant.boundary_friction": 0.05})
     for name in TEMPERATURES[1:]:
         assert half[name] == pytest.approx(0.5 * done[name], rel=0.03)
 
 
 def test_film_beside_contact_is_warmed_by_it(solve):
-    """Friction of the film falls as the layer rubs more."""
+    """Friction of the film falls as the friction of the boundary film rises."""
     mixed = HOT | {"lubricant.boundary_film": 5e-7}
     result = [
         solve(None, 129, mixed | {"lubricant.boundary_friction": mu}) for mu in (0.05, 0.1, 0.2)
@@ -245,7 +245,7 @@ def test_film_beside_contact_is_warmed_by_it(solve):
     [(600.0, 0.005, 4e-8, 0.05), (600.0, 0.05, 4e-8, 0.05), (100.0, 0.05, 4e-8, 0.03)],
 )
 def test_islands_at_rest_converge_on_fine_grids(solve, load, velocity, layer, height):
-    """Lubricant between nodes that touch takes more cycles to leave than there are by default."""
+    """Lubricant between touching nodes takes more cycles to leave than the default limit."""
     island = {
         "contact.load": load,
         "contact.mean_velocity": velocity,
@@ -258,14 +258,14 @@ def test_islands_at_rest_converge_on_fine_grids(solve, load, velocity, layer, he
 
 
 def of_shape(settings: dict) -> dict:
-    """Without what an ellipse gives itself: the domain, and the one radius."""
+    """Remove what an ellipse determines: the domain, and the one radius."""
     if "contact.radius_x" not in settings:
         return settings
     return {k: v for k, v in settings.items() if k not in DOMAIN and k != "contact.radius"}
 
 
 def test_mixed_film(solve):
-    """Load share with its error by the coarser grid; friction between that of film and layer."""
+    """Load share with its error by the coarser grid; friction between film and boundary film."""
     known = MIXED | {
         "contact.load": 100.0,
         "lubricant.boundary_film": 4e-8,
@@ -284,18 +284,18 @@ def test_mixed_film(solve):
     assert 0.0 < parts[1] < 0.05 * share
     first = -round(fine["T_mean"] / fine["x_mesh"])
     assert fine.history["load_share"][first:].mean() == pytest.approx(share, rel=0.05)
-    # the boundary film has its share of the friction, and the film no less than nothing
+    # the boundary film has a share of the friction, and the film has a positive one
     assert 0.1 * share < fine["mu"] < 0.1
-    # no film is thinner than the layer, compressed as the lubricant is
+    # no film is thinner than the boundary film, which is compressed as the lubricant is
     pressure = fine.field("P") * fine["hertz_pressure_Pa"]
     density = (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
     assert (density * fine.field("H")).min() >= 0.99 * fine["boundary_film"]
-    # pressure in the sense of the load balance
+    # pressure as it enters the load balance
     assert abs(fine["load_error"]) <= 1e-6
     assert fine["contact_load_share_error_note"] == ""
     without = STEEL | known | {"lubricant.boundary_friction": 0.0}
     unknown = solve(None, 65, without | {"surface.amplitude": fine["amplitude"]}, words=True)
-    # the run ends with the ratio of another friction, so that the mean is over other steps
+    # the run ends with another friction, so that the mean is over other steps
     assert unknown["contact_load_share"] == pytest.approx(same["contact_load_share"], rel=0.05)
     assert unknown["mu_ratio"] is None
     assert unknown["mu"] is None
@@ -303,7 +303,7 @@ def test_mixed_film(solve):
 
 
 def test_single_nodes_that_touch(solve):
-    """High waves, each of which touches at a few nodes."""
+    """High waves that touch at a few nodes each."""
     high = {
         "contact.load": 200.0,
         "contact.mean_velocity": 0.2,
@@ -318,7 +318,7 @@ def test_single_nodes_that_touch(solve):
 
 @pytest.mark.long
 def test_contact_of_a_coarse_grid(solve):
-    """Where a grid does not resolve the inlet bodies touch on it, and no error is reported."""
+    """Where a grid does not resolve the inlet the bodies touch, and no error is reported."""
     done = solve(None, 129, STEEL | MIXED, words=True)
     assert done.converged
     assert done["contact_load_share"] > 0.1
@@ -329,7 +329,7 @@ def test_contact_of_a_coarse_grid(solve):
 
 
 def test_a_boundary_film_with_a_large_mass_defect(solve):
-    """A thick one on a coarse grid: the assessment states that the model ends there."""
+    """A thick boundary film on a coarse grid: the assessment states that the model ends there."""
     done = solve(None, 65, STEEL | MIXED | {"lubricant.boundary_film": 8e-8}, words=True)
     assert done.converged
     assert done["mass_defect"] > 0.1
@@ -339,7 +339,7 @@ def test_a_boundary_film_with_a_large_mass_defect(solve):
 
 @pytest.mark.long
 def test_no_error_where_the_mass_defect_is_large(solve):
-    """A wave of the stress campaign, whose load share two grids give no error of."""
+    """Two grids give no error of the load share of a wave of the stress campaign."""
     wave = {
         "contact.load": 220.65341,
         "contact.mean_velocity": 3.8854007,

@@ -3,7 +3,7 @@
 
 import pytest
 
-# The algebraic error asked for makes the finest grid take many cycles
+# Such a small algebraic error makes the finest grid take many cycles
 MANY_CYCLES = {"solver.accuracy": 1e-6, "solver.max_cycles": 40}
 RESULTS = ("H_c", "H_min", "P_max", "F", "H_c_extrapolated", "H_c_error", "H_min_error")
 STATUS = {"converged", "cycle limit", "diverged", "negative film"}
@@ -15,7 +15,7 @@ def test_residual_reduction_per_cycle(solve, moes_m: float):
     assert done.converged
     residual = done.history["residual"][done.history["points"] == 513]
     assert residual.size >= 6
-    # The first cycle takes away what the interpolation from the coarser grid left: not counted
+    # The first cycle removes the error of the interpolation from the coarser grid: not counted
     reduction = residual[1:6] / residual[0:5]
     assert reduction.max() <= 0.3
 
@@ -32,7 +32,7 @@ POINTS = [(20.0, 10.0), (200.0, 10.0), (1000.0, 10.0), (2000.0, 15.0)]
     ],
 )
 def test_convergence_does_not_depend_on_the_grid(solve, point: tuple[float, float], finest: int):
-    """Reduction of the residual by a full cycle; the cycles of a solution on the finest grid."""
+    """Residual reduction by a full cycle; number of cycles of a solution on the finest grid."""
     grids = [points for points in (129, 257, 513, 1025) if points <= finest]
     reductions = []
     for points in grids:
@@ -51,7 +51,7 @@ def test_convergence_does_not_depend_on_the_grid(solve, point: tuple[float, floa
 @pytest.mark.parametrize("point", [(20.0, 10.0), (500.0, 5.0), (1000.0, 10.0), (2000.0, 15.0)])
 @pytest.mark.parametrize("points", [257, 513])
 def test_reduced_second_cycles_agree_with_full_ones(solve, point: tuple[float, float], points: int):
-    """The plan makes the second cycle on a grid a reduced one; cycles of one kind give the same."""
+    """The plan reduces the second cycle on each grid; full second cycles give the same."""
     reduced = solve(point, points)
     full = solve(point, points, {"solver.cycle": "F", "solver.accuracy": 0.01})
     assert reduced.converged
@@ -73,25 +73,26 @@ STRESS_L = (0.0, 0.1, 1.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0)
     "moes_m", [*STRESS_M, *(pytest.param(m, marks=pytest.mark.long) for m in MORE_M)]
 )
 def test_every_status_is_right(solve, moes_m: float):
-    """M >= 2000 is not resolved on 129 points: a run may fail, its status may not be wrong."""
+    """M >= 2000 is not resolved on 129 points: a run may fail, but its status must be right."""
     for moes_l in STRESS_L:
         point = moes_m, moes_l
-        # A run takes a tenth of a second; one that does not end within the limit is an error
+        # A run takes a tenth of a second; if one does not end within the limit, that is an error
         done = solve(point, 129, timeout=60.0)
         assert done["status"] in STATUS, point
         assert done.code == (0 if done["status"] == "converged" else 1), point
         assert done["converged"] == (done["status"] == "converged"), point
         if not done.converged:
             assert all(done[name] is None for name in RESULTS), point
-            # What the grid cannot resolve: large M, and rigid-isoviscous films under high loads
+            # Conditions that the grid cannot resolve: large M, and rigid-isoviscous films at high
+            # loads
             assert moes_m >= 2000.0 or moes_l < 2.5, point
             continue
         assert abs(done["load_error"]) <= 1e-6, point
         assert done["residual"] <= 2e-3, point
         assert 0.0 < done["H_min"] <= done["H_c"], point
         assert done["P_max"] > 0.0, point
-        # Converged means: more cycles change the film by a tenth of its error; the estimate of
-        # that is granted a factor of two
+        # Converged: more cycles change the film by less than a tenth of its error; the estimate may
+        # be wrong by a factor of two
         more = solve(point, 129, {"solver.accuracy": 1e-3, "solver.max_cycles": 60})
         for name in ("H_c", "H_min"):
             last = more[name] if more.converged else more[f"last_{name}"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The domain that an operating point gets, and what it costs."""
+"""The default domain of an operating point, and its error."""
 
 import csv
 from pathlib import Path
@@ -36,7 +36,7 @@ def solved(case: Case) -> dict:
     ],
 )
 def test_stated_error_covers_a_domain_twice_as_large(moes_m: float, moes_l: float, points: int):
-    """On the same meshes, so that the grid error is the same."""
+    """On the same mesh sizes, so that the grid error is the same."""
     case = case_of(moes_m, moes_l, points)
     doubled = {key: 2.0 * value for key, value in domain_of(case).items()}
     here, wide = solved(case), solved(case_of(moes_m, moes_l, 2 * points - 1, **doubled))
@@ -72,7 +72,7 @@ def test_a_key_overrides_only_its_own_border():
 
 
 def test_a_domain_that_starves_the_film_is_reported():
-    """At (20, 10) P = 0 on the domain of the paper takes 6 % of the film; plan and error say so."""
+    """At (20, 10), P = 0 on the paper's domain reduces the film by 6 %; plan and error say so."""
     starved = solved(case_of(20.0, 10.0, 257, **PAPER, border="zero"))
     flooded = solved(case_of(20.0, 10.0, 257))
     assert flooded["H_c_extrapolated"] == pytest.approx(0.4368, rel=3e-3)
@@ -86,7 +86,7 @@ def test_a_domain_that_starves_the_film_is_reported():
 
 @pytest.mark.parametrize(("moes_m", "moes_l"), [(2.0, 10.0), (20.0, 10.0), (1000.0, 25.0)])
 def test_flooded_border_is_that_of_a_large_domain(moes_m: float, moes_l: float):
-    """On one mesh: what a domain twice as large changes, over what P = 0 at its border does."""
+    """On one mesh: effect of a domain twice as large, over that of P = 0 at its border."""
     usual = domain_of(case_of(moes_m, moes_l, 65, border="flooded"))
     points = 257 if moes_m > 100.0 else 129
     doubled = {key: 2.0 * value for key, value in usual.items()}
@@ -102,7 +102,7 @@ def test_flooded_border_is_that_of_a_large_domain(moes_m: float, moes_l: float):
 
 
 def test_pressure_spike_of_few_nodes_converges():
-    """Where cycles of the usual kind throw the spike about, damped ones are the restart."""
+    """Full cycles move the spike to and fro; the run restarts with damped ones."""
     result = solved(case_of(200.0, 25.0, 257, **PAPER, border="zero"))
     assert result["restarts"] == 1
     usual = solved(case_of(200.0, 24.0, 257, **PAPER, border="zero"))
@@ -112,13 +112,13 @@ def test_pressure_spike_of_few_nodes_converges():
 
 
 def test_damping_on_all_levels_fails_before_the_finest_alone():
-    """Here coarse levels fail with care, too; what is left is the finest one, with care."""
+    """Damped cycles fail on coarse levels here; damping on the finest level alone converges."""
     result = solved(case_of(600.0, 40.0, 129))
     assert result["restarts"] == 2
 
 
 def test_evidence_is_what_this_build_gives(root: Path):
-    """Three rows of docs/evidence/errors/smooth.csv, made anew."""
+    """Three rows of docs/evidence/errors/smooth.csv, computed anew."""
     path = root / "docs" / "evidence" / "errors" / "smooth.csv"
     with path.open(encoding="utf-8", newline="") as stream:
         rows = [row for row in csv.DictReader(stream) if row["points"] in ("65", "129", "65.0")]
@@ -127,13 +127,13 @@ def test_evidence_is_what_this_build_gives(root: Path):
             case_of(float(row["moes_m"]), float(row["moes_l"]), int(float(row["points"])))
         )
         for name in ("H_c", "H_c_error", "H_min_error"):
-            # instructions of other processors round differently
+            # other processors have other instructions, which round differently
             assert result[name] == pytest.approx(float(row[name]), rel=1e-6)
 
 
 @pytest.mark.parametrize("moes_m", [0.3, 20.0, 200.0])
 def test_film_follows_from_the_pressure_to_its_border(moes_m: float):
-    """The border of a flooded contact follows the film, and the film that border."""
+    """The border pressure of a flooded contact follows the film, and the film that pressure."""
     case = case_of(moes_m, 10.0, 65, border="flooded").with_options("solver.deflection=fft")
     with Solver(case) as solver:
         assert solver.run()

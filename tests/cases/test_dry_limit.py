@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contact at a boundary film where next to no lubricant is left, and solids with a hardness."""
+"""Contact at a boundary film with hardly any lubricant left, and solids with a hardness."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def apart(pressure: np.ndarray, other: np.ndarray) -> float:
 
 
 def test_rough_dry_limit_full_contact(solve, root, dry):
-    """Pressure and area of a dry solver where the waves are pressed flat."""
+    """Pressure and area of a dry solver where the waves are flattened completely."""
     rest = REST | {"contact.mean_velocity": 0.005, "lubricant.boundary_film": 2e-8}
     done = solve(None, 129, STEEL | rest, fields=True)
     assert done.converged
@@ -44,7 +44,7 @@ def test_rough_dry_limit_full_contact(solve, root, dry):
 
 
 def test_rough_dry_limit_partial_contact(solve, root, dry):
-    """Pressure of a dry solver where the waves are not: closed valleys hold lubricant."""
+    """Pressure of a dry solver where they are not: closed valleys trap lubricant."""
     rest = REST | {"contact.mean_velocity": 0.005, "lubricant.boundary_film": 1e-8}
     done = solve(None, 129, STEEL | rest | {"surface.amplitude": 0.05}, fields=True)
     assert done.converged
@@ -72,7 +72,7 @@ def test_rough_dry_limit_partial_contact(solve, root, dry):
     ids=["flat", "valleys", "fine, flat", "fine, valleys", "ellipse", "two surfaces"],
 )
 def test_hardness_dry_limit(solve, root, dry, name, points, velocity, layer, hardness, case):
-    """Pressure, and what of the load is at the limit, of a dry solver with a limit of pressure."""
+    """Pressure and load share at the pressure limit, as by a dry solver with such a limit."""
     rest = {"contact.mean_velocity": velocity, "lubricant.boundary_film": layer}
     rest |= {"contact.hardness": hardness}
     done = solve(None, points, of_shape(STEEL | REST | rest | case), fields=True, words=True)
@@ -85,7 +85,7 @@ def test_hardness_dry_limit(solve, root, dry, name, points, velocity, layer, har
     # the dry contact is that of the last time step
     moving = "time.steps" in case
     at_limit = done.history["hard_load_share"][-1] if moving else done["load_share_at_hardness"]
-    # two nodes of the ellipse are one hundredth of its share
+    # two nodes of the ellipse are one hundredth of its area
     assert at_limit == pytest.approx(share, rel=0.02 if name == "ellipse" else 0.01)
     row = f"| {name} | {points} | {limit:.2f} | {within(apart(pressure, hard))} | "
     row += f"{100.0 * at_limit:.1f} % | {100.0 * share:.1f} % |"

@@ -71,7 +71,8 @@ def test_a_constant_duty_of_points_is_the_steady_contact_in_bits(radius_y, inlet
 def test_roughness_moves_under_a_constant_duty():
     """As without a duty, up to the steps of the front and those of the scheme.
 
-    Without one errors of the load may leave noise about the mean friction: both are solved well.
+    Without a duty, errors of the load may leave noise about the mean friction: both runs use a
+    small residual.
     """
     wave = {
         "surface.kind": "harmonic", "surface.amplitude": 0.02,
@@ -95,7 +96,7 @@ def test_roughness_moves_under_a_constant_duty():
 
 @pytest.mark.parametrize("key", ["load", "mean_velocity", "radius_x"])
 def test_a_table_that_begins_away_from_the_case(key):
-    """The film has gone over from the case to its first row when the table begins."""
+    """When the table begins, the film has changed to that of its first row."""
     data = run([0.0, 0.5], **{key: [0.8, 0.8]})
     name = {"load": "load_per_length", "radius_x": "radius"}.get(key, key)
     steady = pyehl.solve(
@@ -110,19 +111,19 @@ def test_a_table_that_begins_away_from_the_case(key):
 
 
 def test_a_constant_beginning_is_the_steady_contact():
-    """Up to the row at which the load begins to rise; from the first step of a duty on."""
+    """Up to the row at which the load begins to rise; time steps are solved from there on."""
     duty = {"load": [1.0, 1.0, 1.0, 1.1], "mean_velocity": [1.0] * 4}
     h = run([0.0, 1.0, 2.0, 3.0], **duty)
     assert h.history_T.values[:2] == pytest.approx([1.0, 2.0])
     assert (h.history_cycles.values > 0).tolist() == [False] * 2 + [True] * (h.history_T.size - 2)
-    # cubic: the parabola through the last rows has a slope from the second on
+    # cubic: the parabola through the last rows has a slope from the second row on
     cubic = run([0.0, 1.0, 2.0, 3.0], interpolation="cubic", **duty)
     assert cubic.history_T.values[0] == pytest.approx(1.0)
     assert cubic.history_cycles.values[1] > 0
 
 
 def test_a_slow_duty_is_a_sequence_of_steady_contacts():
-    """The deviation is in proportion to the rate: three rates, speed from 1 to 1.2."""
+    """The deviation is proportional to the rate: three rates, speed from 1 to 1.2."""
     steady = pyehl.solve(
         pyehl.Case(
             **LINE | {"contact": LINE["contact"] | {"mean_velocity": 1.1 * SPEED}},
@@ -173,7 +174,7 @@ def test_reference_of_a_periodic_speed():
     ids=["load", "reversal"],
 )
 def test_against_newton(ends, points, time, duty):
-    """A change of the load and a reversal against Newton's method in each step, within 0.5 %."""
+    """A load change and a reversal against Newton's method in each step, within 0.5 %."""
     grid = {"points": points, "x_inlet": ends[0], "x_outlet": ends[1]}
     h = columns(run(time, grid, **duty))
     line = line_newton.Line(M, L, points - 1, ends, 0.6684)
@@ -205,7 +206,7 @@ BOTH_SIDES = {"points": 257, "x_inlet": -4.0, "x_outlet": 4.0}
 
 
 def step_errors(time, grid=None, share=1.0, **duty):
-    """Differences of films and pressure to an eighth of the step, and errors stated, relative."""
+    """Differences of films and pressure to an eighth of the step, and the stated errors."""
     one = run(time, grid, time_step=share, **duty)
     other = run(time, grid, time_step=share / 8.0, **duty)
     for name, column in (("H_c", "c"), ("H_min", "min"), ("P_max", "p")):
@@ -217,19 +218,19 @@ def step_errors(time, grid=None, share=1.0, **duty):
 
 @pytest.mark.parametrize("name", DUTIES)
 def test_the_stated_error_of_time_steps_covers(name):
-    """At 0.95 of all instants, and over the duty; the tolerance of a step leaves 5e-5."""
+    """At 0.95 of all instants, and over the duty; the tolerance of a step contributes 5e-5."""
     time, duty = DUTIES[name]
     grid = BOTH_SIDES if name == "reversal" else None
     for what, error, stated in step_errors(time, grid, **duty):
         assert np.mean(error <= stated + 5e-5) > 0.95, what
         assert error.max() < 1.3 * stated.max(), what
-        # not without bounds
+        # the errors are not arbitrarily large
         assert what == "P_max" or stated.max() < 8.0 * error.max(), what
 
 
 @pytest.mark.parametrize("name", DUTIES)
 def test_the_required_error_is_held(name):
-    """Against steps of a sixteenth."""
+    """Compared with sixteen times as many steps."""
     time, duty = DUTIES[name]
     if len(time) > 8:
         time = time[::4]
@@ -243,7 +244,7 @@ def test_the_required_error_is_held(name):
 
 
 def test_half_the_time_step_gives_a_quarter_of_the_error():
-    """Errors by time steps fall with their square, and so do those that are stated."""
+    """Errors by time steps fall with their square, and so do the stated ones."""
     time, duty = DUTIES["speed"]
     films, stated = [], []
     for share in (2.0, 1.0, 0.5, 0.125):
@@ -266,7 +267,7 @@ def test_steps_are_longer_where_the_error_allows():
 
 
 def test_an_error_of_the_steps_is_held():
-    """A step in load in a fortieth of a transit requires shorter steps; the film is the same."""
+    """A load step within a fortieth of a transit requires shorter steps; the film is the same."""
     duty = {"load": [1.0, 1.0, 1.3, 1.3]}
     time = [0.0, 0.5, 0.55, 2.0]
     usual = run(time, **duty)
@@ -313,7 +314,7 @@ ROLLER = {
 
 
 def test_a_roller_follows_the_line_in_its_middle():
-    """Under a speed over time; a load that changes has a film of its own."""
+    """Under a speed over time; under a changing load the film differs."""
     steady = pyehl.solve(pyehl.Case(**ROLLER))
     unit = float(steady.hertz_radius_m) / 2.0
     time = np.linspace(0.0, 4.0, 17) * unit
@@ -322,7 +323,7 @@ def test_a_roller_follows_the_line_in_its_middle():
     np.testing.assert_array_equal(rest.H, steady.H)
     data = pyehl.solve(pyehl.Case(**ROLLER, duty={"time": time, "mean_velocity": speed}))
     assert float(data.cycles_per_step) < 15.0
-    # with the load per length that the middle has
+    # with the load per length of the middle
     middle = steady.P.values[:, steady.Y.size // 2]
     share = float(np.trapezoid(middle, steady.X)) / (np.pi / 2.0)
     contact = LINE["contact"] | {
@@ -344,7 +345,7 @@ def test_a_roller_follows_the_line_in_its_middle():
 
 @pytest.mark.parametrize("radius_y", [0.03, 0.06])
 def test_steps_of_wide_contacts_take_few_cycles(radius_y):
-    """Cells are long in them; undamped cycles take some 80."""
+    """Cells are long in them; undamped cycles would take some 80."""
     contact = {"radius_x": 6e-3, "radius_y": radius_y, "load": 400.0, "mean_velocity": 2.0}
     case = pyehl.Case(contact=contact, lubricant={"viscosity": 0.04}, grid={"points": 65})
     time = np.linspace(0.0, 1e-4, 9)
@@ -354,7 +355,7 @@ def test_steps_of_wide_contacts_take_few_cycles(radius_y):
 
 
 def test_a_reversed_motion_is_the_mirror_image():
-    """A duty and its negative leave films that are mirror images, to the tolerance of the steps."""
+    """A duty and its negative give mirror images of the films, to the tolerance of the steps."""
     time = np.array([0.0, 1e-4, 2e-4, 4e-4])
     forth = [2.0, 1.0, 1.0, 1.0]
     case = pyehl.Case(**POINT)
@@ -411,7 +412,7 @@ def test_a_resumed_run_makes_the_same_bits(tmp_path: Path, more):
 
 
 def test_roughness_under_a_reversal():
-    """The wave goes back where it came from: one way and the other add up to none."""
+    """The wave returns the way it came: the displacements of both directions cancel."""
     time = np.array([0.0, 1.0, 2.0, 3.0]) * 3e-4
     turn = {"duty": {"time": time, "mean_velocity": [2.0, 2.0, -2.0, -2.0]}}
     rough = {"surface.kind": "harmonic", "surface.amplitude": 0.02, "surface.wavelength": 1.0}
@@ -424,7 +425,7 @@ def test_roughness_under_a_reversal():
     films = [d.history_H_c.values for d in (data, smooth)]
     times = [d.history_T.values for d in (data, smooth)]
     difference = films[0] - np.interp(times[0], times[1], films[1])
-    # a wave in the film on the way there and on the way back
+    # a wave in the film before and after the reversal
     for way in (speed > 0.5, speed < -0.5):
         assert np.ptp(difference[way]) > 5e-3
     assert (data.history_H_min.values > 0.0).all()
@@ -432,7 +433,7 @@ def test_roughness_under_a_reversal():
 
 @pytest.mark.parametrize("least", [0.1, 0.01])
 def test_a_load_near_zero(least):
-    """The film stays, and the balance of force holds; squeezing oil out keeps it above steady."""
+    """A film remains, and the force balance holds; squeeze keeps the film above the steady one."""
     time = [0.0, 2.0, 4.0, 6.0]
     data = run(time, load=[1.0, least, least, 1.0])
     h = columns(data)
@@ -454,7 +455,7 @@ STEADY = {
 
 @pytest.mark.parametrize("shape", STEADY)
 def test_steady_contacts_beside_a_duty(shape):
-    """Without a change they are the contact of the case; of a slow duty its films."""
+    """At constant values they equal the contact of the case; under a slow duty its films."""
     contact = {"reduced_modulus": MODULUS, "slide_to_roll": 0.0} | STEADY[shape]
     case = pyehl.Case(contact=contact, lubricant={"viscosity": 0.04}, grid={"points": 65})
     speed, radius = contact["mean_velocity"], contact.get("radius", contact.get("radius_x"))
@@ -478,7 +479,7 @@ def test_steady_contacts_beside_a_duty(shape):
 
 
 def test_steady_contacts_of_a_reversal(tmp_path: Path):
-    """The same both ways; none at rest. The command draws them."""
+    """They are equal for both directions, absent at zero velocity, and drawn by the command."""
     turn = duty(np.linspace(0.0, 2e-4, 5), mean_velocity=[2.0, 1.0, 0.0, -1.0, -2.0])
     data = pyehl.solve(pyehl.Case(**POINT), turn, output=tmp_path / "out")
     films = pyehl.quasi_static(data, [0.0, 5e-5, 1e-4, 1.5e-4, 2e-4]).steady_h_c_m.values
@@ -511,7 +512,7 @@ def test_a_roller_takes_an_error_of_its_steps():
 
 
 def test_a_step_without_a_film_proposes_a_finer_grid():
-    """Not a smoother surface, where both are smooth."""
+    """Not a smoother surface, as both surfaces are smooth."""
     contact = ROLLER["contact"] | {"load": 600.0, "mean_velocity": 0.5, "crown_radius": 0.3}
     unit = 1e-4
     table = {"time": [0.0, unit, 4.0 * unit], "mean_velocity": [0.5, 0.01, 0.01]}

@@ -10,7 +10,7 @@ import pyehl
 
 @pytest.fixture(scope="module")
 def stops():
-    """A contact that touches since it nearly stops; also with short steps, and on a fine grid."""
+    """A contact that touches after it nearly stops; also with short steps, and on a fine grid."""
     time = np.array([0.0, 1.0, 5.0, 7.0, 11.0, 16.0])
     speed = SPEED * np.array([1.0, 1.0, 0.02, 0.02, 1.0, 1.0])
     case = pyehl.Case(**LINE, duty={"time": time * UNIT, "mean_velocity": speed}).with_options(
@@ -32,7 +32,7 @@ SHARE = {
 
 @pytest.mark.parametrize("name", SHARE)
 def test_errors_over_time_cover(stops, name):
-    """Shorter steps and a finer grid differ by less than is stated at nearly all instants."""
+    """Shorter steps and a finer grid differ by less than the stated error nearly always."""
     one = stops[0]
     values, stated = (one[f"history_{n}"].values for n in (name, SHARE[name]))
     assert np.isfinite(stated).all()
@@ -44,7 +44,7 @@ def test_errors_over_time_cover(stops, name):
 
 
 def test_the_load_share_of_a_duty(stops):
-    """Its maximum is a row of the history, and its mean that over time."""
+    """Its maximum is a row of the history, and its mean is that over time."""
     one, _, fine = stops
     share, time = one.history_load_share.values, one.history_t_s.values
     at = share.argmax()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keys and tables of a duty: files, units, what is refused."""
+"""Keys and tables of a duty: files, units, refusals."""
 
 from pathlib import Path
 
@@ -23,7 +23,7 @@ def test_a_file_and_arrays_are_the_same_case(tmp_path: Path):
     )  # fmt: skip
     without = {k: v for k, v in read["duty"].items() if k != "file"}
     assert without == given["duty"]
-    # a resolved case holds its table
+    # a resolved case contains its table
     (tmp_path / "duty.csv").unlink()
     assert pyehl.Case.from_text(read.text)["duty"] == read["duty"]
 

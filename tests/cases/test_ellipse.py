@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Elliptical contacts: reference values, order, the circle as a limit, symmetry, waves on them."""
+"""Elliptical contacts: reference values, order, circular limit, symmetry, waves."""
 
 import json
 import math
@@ -36,7 +36,7 @@ def rows(table, kind: str) -> list[dict[str, str]]:
 
 
 def on_cells(solve, row: dict[str, str], points: int, *, square: bool):
-    """Solve a row of the table on nodes along X, on square cells or those by default."""
+    """Solve a row of the table with nodes along X, on square or on default cells."""
     settings = PLACE | {
         "contact.radius_ratio": row["radius_ratio"],
         "grid.y_extent": row["y_extent"],
@@ -58,7 +58,7 @@ def test_reference_films_on_the_same_cells(solve, table):
 
 
 def test_limits_with_order_two(solve, table):
-    """On the cells by default, which are not square."""
+    """On the default cells, which are not square."""
     for row in rows(table, "limit"):
         coarse, middle, fine = (on_cells(solve, row, n, square=False) for n in (129, 257, 513))
         assert fine["H_c_extrapolated"] == pytest.approx(float(row["H_c"]), rel=1e-3), row
@@ -95,7 +95,7 @@ def test_ellipticity_against_legendre_integrals(table):
             {
                 "contact.radius_x": 0.01,
                 "contact.radius_y": 0.03,
-                # multi-integration halves other rows where Y = 0 has an odd number
+                # multi-integration coarsens other rows if the row Y = 0 has an odd number
                 "solver.deflection": "fft",
             },
             {"solver.symmetry": "full"},
@@ -131,13 +131,13 @@ def test_numbers_of_python_are_those_of_the_program(solve):
             "ellipticity": point.ellipse.ellipticity,
         }.items():
             assert done[name] == pytest.approx(value, rel=1e-12), name
-        # semi-ellipsoid of pressure
+        # semi-ellipsoidal pressure
         load = 2.0 / 3.0 * math.pi * point.hertz_pressure * point.hertz_radius * point.semi_axis_y
         assert load == pytest.approx(50.0, rel=1e-12)
 
 
 def test_bodies_make_reduced_radii_and_modulus(ehl: str, tmp_path: Path):
-    """A ball in a groove; the case that the run writes does the same."""
+    """A ball in a groove; the case written by the run gives the same."""
     ball, ring, groove = 0.004, 0.0125, -0.00413
     bodies = {
         "bodies.radius_x1": ball,
@@ -167,9 +167,9 @@ def test_bodies_make_reduced_radii_and_modulus(ehl: str, tmp_path: Path):
 
 
 def test_turned_by_a_right_angle_radii_change_places(solve):
-    """The same contact in other words; in between, angles of both signs are mirror images."""
+    """The same contact by other keys; in between, angles of both signs are mirror images."""
     keys = ROUND | {"grid.points": 129, "grid.border": "zero", "solver.deflection": "fft"}
-    # the whole domain has other coarse grids, and so other algebraic errors
+    # the whole domain has other coarse grids, and thus other algebraic errors
     keys |= {"solver.accuracy": 0.01}
     radii = {"contact.radius_x": 0.01, "contact.radius_y": 0.03}
     swapped = {"contact.radius_x": 0.03, "contact.radius_y": 0.01}
@@ -189,7 +189,7 @@ def test_turned_by_a_right_angle_radii_change_places(solve):
 
 
 def test_rolling_moment(solve):
-    """As the fields have it; in a wide contact near the asymptote of Biboulet & Houpert 2010."""
+    """From the fields; in a wide contact near the asymptote of Biboulet & Houpert 2010."""
     kappa, m = 5.0, 1000.0
     shape = ellipse(0.08455531)
     assert shape.ellipticity == pytest.approx(kappa, rel=1e-3)
@@ -207,7 +207,7 @@ def test_rolling_moment(solve):
 
 
 def test_film_of_a_flooded_ellipse(solve):
-    """Against the border of published values: the figures of docs/theory/border.md."""
+    """Against published values for another border: the numbers of docs/theory/border.md."""
     wide = {"contact.radius_ratio": 0.35177}
     flooded = solve((200.0, 10.0), 257, wide)
     place = {"grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.y_extent": 4.0}
@@ -282,7 +282,7 @@ def test_waves_on_half_and_whole_domains(solve, ratio, coarsening):
     ("ratio", "moes_m", "border"), [(25.0, 3.0, "flooded"), (60.0, 8.0, "zero")]
 )
 def test_default_sides_of_a_narrow_contact(solve, ratio: float, moes_m: float, border: str):
-    """The default domain beside one three times as wide: changes are below what is stated."""
+    """The default domain against one three times as wide: changes are below the stated error."""
     keys = {"contact.radius_ratio": ratio, "grid.border": border, "solver.accuracy": 0.005}
     near = solve((moes_m, 8.0), 129, keys)
     rows = 3 * (near["points_y"] - 1) + 1
@@ -305,7 +305,7 @@ def test_deflection_engines_agree(solve):
 
 
 def test_resolved_case_gives_the_same_bits(ehl: str, tmp_path: Path):
-    """The case that a run writes, with what follows from the ellipse in it."""
+    """The case written by a run, with the values that follow from the ellipse."""
     first, again = tmp_path / "first", tmp_path / "again"
     options = ["contact.radius_x=0.01", "contact.radius_y=0.03", "grid.points=65"]
     (tmp_path / "case.nml").write_text("")
@@ -317,7 +317,7 @@ def test_resolved_case_gives_the_same_bits(ehl: str, tmp_path: Path):
     text = (first / "case.nml").read_text()
     assert "radius_x" in text
     assert "radius =" not in text
-    # an option on it does the same as on the case that it was written from
+    # an option changes it as it changes the original case
     subprocess.run(
         [ehl, first / "case.nml", "-o", tmp_path / "c", "--set", "grid.points=129"], check=True
     )
@@ -326,7 +326,7 @@ def test_resolved_case_gives_the_same_bits(ehl: str, tmp_path: Path):
 
 
 def test_too_coarse_a_grid_names_one_that_will_do(drive, tmp_path: Path):
-    """A narrow contact with a thin film: plan and result say how many nodes it takes."""
+    """A narrow contact with a thin film: plan and result state the necessary number of nodes."""
     narrow = {"contact.radius_ratio": 25.0, "contact.moes_m": 20.0, "contact.moes_l": 10.0}
     case = pyehl.Case.from_text("", narrow | {"grid.points": 33})
     assert "warning    the grid is too coarse for a solution" in str(pyehl.check(case))
@@ -369,7 +369,7 @@ def test_a_failed_contact_names_a_finer_grid(solve):
 @pytest.mark.parametrize("kappa", [0.1, 0.2, 0.5, 2.0, 5.0, 10.0])
 @pytest.mark.long
 def test_radius_ratios_from_0_1_to_10(solve, kappa: float):
-    """Thick and thin films, with the M and L of the round contact with the same equations."""
+    """Thick and thin films, with M and L of the round contact with the same equations."""
     shape = ellipse(float(elliprd(0.0, 1.0, kappa**2) / elliprd(0.0, kappa**2, 1.0)))
     for m, ell in ((20.0, 2.0), (20.0, 15.0), (120.0, 5.0)):
         point = m * kappa * shape.kernel_ratio**0.25, ell / shape.kernel_ratio**0.75
@@ -441,7 +441,7 @@ def test_functions_for_circles_refuse_ellipses():
     ],
 )
 def test_cells_that_a_narrow_contact_needs(kappa: float, round_m: float):
-    """They are those by default; where longer ones end without a film the message names shorter."""
+    """They are the default; where longer ones give no film the message suggests shorter ones."""
     square = kappa**2
     ratio = float(elliprd(0.0, 1.0, square) / elliprd(0.0, square, 1.0))
     keys = {

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The fields that were written solve the discrete equations, as written down here once more.
+"""The written fields solve the discrete equations, which are implemented here once more.
 
 Everything is evaluated anew in numpy from P and H alone: deflection by the exact integral of 1/r
-over a cell and scipy's FFT, viscosity, density, conductances, both time schemes. What the solver
-calls film, residual, load and friction must come out to rounding.
+over a cell and scipy's FFT, viscosity, density, conductances, both time schemes. Film, residual,
+load and friction of the solver must agree to rounding.
 """
 
 from typing import Any
@@ -36,7 +36,7 @@ def deflection(pressure: Array, h: float) -> Array:
 
 
 class State:
-    """P and H of a run with what follows from them."""
+    """P and H of a run and the quantities that follow from them."""
 
     def __init__(self, run: Any) -> None:
         self.x, self.y = run.field("X"), run.field("Y")
@@ -73,7 +73,7 @@ class State:
         return values
 
     def residual(self, transport: Array) -> Array:
-        """Divergence plus transport; where P = 0 only what asks for pressure."""
+        """Divergence plus transport; where P = 0 only the part that would raise the pressure."""
         values = self.divergence() + transport
         values[[0, -1]] = 0.0
         values[:, [0, -1]] = 0.0
@@ -86,7 +86,7 @@ def rms(values: Array) -> float:
 
 
 def left(done: Any) -> float:
-    """Largest residual (rms) of the last step; it makes up for those of the two before it."""
+    """Largest residual (rms) of the last step, with a margin for the two steps before it."""
     last, before, earlier = done.history["residual"][:-4:-1]
     return last + 4.0 / 3.0 * before + earlier / 3.0
 
@@ -102,7 +102,7 @@ def test_smooth(solve, moes_m: float, points: int, engine: str):
     border[1:-1, 1:-1] = False
     wanted = 2.0 * np.pi / 3.0
     if moes_m < 500.0:
-        # those of a flooded contact under the film before the last cycle
+        # those of a flooded contact by the film before the last cycle
         upper = state.y >= 0.0
         x, y = (a.ravel() for a in np.meshgrid(state.x, state.y[upper], indexing="ij"))
         expected, beyond = far_field(x, y, state.film[:, upper].ravel(), state.h)
@@ -113,11 +113,11 @@ def test_smooth(solve, moes_m: float, points: int, engine: str):
         wanted -= speed * beyond
     else:
         assert not state.p[border].any()
-    # Exact sums to rounding; mlmi to a tenth of the discretisation error of H_c at most
+    # Exact sums agree to rounding; mlmi to at most a tenth of the discretisation error of H_c
     separation = state.rigid_separation()
     exact = 1e-12 if engine == "fft" else 0.1 * done["H_c_error"]
     assert np.ptp(separation) < exact
-    # each with the share of the node's own deflection, 8/pi^2 asinh(1) h by a square cell, against
+    # each with the contribution of its own node, 8/pi^2 asinh(1) h for a square cell, relative to
     # the Poiseuille term, 4 eps/h^2
     own = 8.0 / np.pi**2 * np.arcsinh(1.0)
     share = own / (own + 4.0 * state.eps / state.h**2)
@@ -150,7 +150,7 @@ def march(solve, request) -> tuple[str, Any, list[State]]:
         "surface.wavelength": WAVELENGTH,
         "surface.x_start": START,
         "time.scheme": scheme,
-        # The balance below is a small difference
+        # The balance below is a small difference of large numbers
         "solver.accuracy": 2.5e-6,
     }
     runs = [
@@ -178,18 +178,18 @@ def test_time_step(march):
         transport[1] = (m[1] - before[0]) / now.h
     assert done.history["residual"].max() <= done["step_residual_allowed"]
     assert rms(now.residual(transport)) <= (1.0 + 1e-5) * left(done)
-    # The roughness is where it should be, and its peaks thin the film
+    # The roughness is in the right place, and its peaks thin the film
     distance = now.x - (START + VELOCITY * done["T"])
     along = 10.0 ** (-10.0 * np.maximum(0.0, distance / WAVELENGTH) ** 2)
     along *= AMPLITUDE * np.cos(2.0 * np.pi * distance / WAVELENGTH)
     roughness = along[:, None] * np.cos(2.0 * np.pi * now.y / WAVELENGTH)
-    # mlmi again
+    # agreement of mlmi, as above
     assert np.ptp(now.rigid_separation(roughness)) < 0.1 * done["H_c_error"]
     assert np.ptp(now.rigid_separation()) > AMPLITUDE
 
 
 def test_mass_balance(march):
-    """What flows into a part of the contact less what flows out stays there."""
+    """Inflow into a part of the contact less outflow is stored there."""
     scheme, done, states = march
     now = states[0]
     m, before, earlier = (state.mass for state in states)
@@ -200,10 +200,10 @@ def test_mass_balance(march):
     assert now.p[i, j].min() > 0.0
 
     def convected(k: int) -> float:
-        """Couette flux between columns k and k + 1, of which the differences of rho H are made."""
+        """Couette flux between columns k and k + 1, whose differences are those of rho H."""
         if scheme == "paper":
             return (1.5 * m[k, j] - 0.5 * m[k - 1, j]).sum() * h
-        # Sorted by time, the difference along the characteristic has the storage term of the other
+        # The difference along the characteristic, sorted by time, has the storage term of the other
         # scheme, and a flux of earlier times
         return (2.0 * before[k, j] - 0.5 * earlier[k, j] - 0.5 * earlier[k - 1, j]).sum() * h
 
@@ -212,9 +212,9 @@ def test_mass_balance(march):
     inflow = convected(west - 1) + along[west - 1, j].sum() * h
     outflow = convected(east) + along[east, j].sum() * h
     outflow += (across[i, north] - across[i, south - 1]).sum() * h
-    # The residuals add up to no more than their rms over the whole plane lets them (Cauchy-Schwarz)
+    # The sum of the residuals is bounded by their rms over the whole plane (Cauchy-Schwarz)
     allowed = left(done) * h**2 * np.sqrt(m[i, j].size * m.size)
     assert abs(stored + outflow - inflow) < allowed
-    # which is little beside the parts that balance
+    # which is small compared with the terms of the balance
     assert abs(stored) > 20.0 * allowed
     assert abs(outflow - inflow) > 20.0 * allowed

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Single features that pass the contact once: closed forms, limits, symmetry, extremes, the end."""
+"""Single features that pass the contact once: closed forms, limits, symmetry, extremes, end."""
 
 import subprocess
 from pathlib import Path
@@ -21,13 +21,13 @@ DENT: dict[str, object] = {
     "surface.velocity_ratio": 1.0,
     "time.estimate_error": False,
 }
-# 33 nodes a side resolve M = 200 on no larger domain
+# 33 nodes per side resolve M = 200 only on the smallest domain
 SMALL = {"grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.y_extent": 2.0}
 TIGHT = {"solver.accuracy": 1e-4}
 
 
 def form(kind: str, x: Any, y: Any, width: float, length: float, angle: float) -> Any:
-    """The closed form, height 1, once more."""
+    """The closed form with height 1, implemented once more."""
     turn = np.radians(angle)
     across = (x * np.cos(turn) + y * np.sin(turn)) / width
     along = y * np.cos(turn) - x * np.sin(turn)
@@ -46,7 +46,7 @@ def form(kind: str, x: Any, y: Any, width: float, length: float, angle: float) -
 @pytest.mark.parametrize("kind", FEATURES)
 @pytest.mark.parametrize(("length", "angle"), [(0.0, 0.0), (1.4, 30.0), (1.4, 90.0)])
 def test_closed_forms(kind: str, length: float, angle: float, solve: Any):
-    """What the solver puts under the film at rest."""
+    """Heights that the solver adds to the film, at zero velocity."""
     shape = {"kind": kind, "width": 0.6, "length": length, "angle": angle, "y_start": 0.25}
     rest = {"velocity_ratio": 0.0, "x_start": 0.1, "amplitude": 0.004}
     keys = {f"surface.{key}": value for key, value in (shape | rest).items()}
@@ -55,7 +55,7 @@ def test_closed_forms(kind: str, length: float, angle: float, solve: Any):
     assert not done["half_domain"]
     x, y = np.meshgrid(done.field("X") - 0.1, done.field("Y") - 0.25, indexing="ij")
     expected = 0.004 * form(kind, x, y, 0.6, length, angle)
-    # the tail below the rounding of the height is left out
+    # without the tail below the rounding of the height
     np.testing.assert_allclose(done.field("RR"), expected, rtol=0.0, atol=1e-15)
 
 
@@ -75,7 +75,7 @@ def test_sizes_in_metres():
             solver.run()
         np.testing.assert_allclose(one.field("RR"), other.field("RR"), rtol=1e-12, atol=1e-17)
         summary = third.summary
-        # a share of the film of the case, which grids of any size know alike
+        # a share of the film of the case, which is the same on grids of any size
         with pyehl.Solver(share, "grid.points=257") as fine:
             fine.run()
             assert summary["amplitude"] == pytest.approx(fine.summary["amplitude"], rel=2e-3)
@@ -89,7 +89,7 @@ def test_sizes_in_metres():
 
 
 def test_half_domain(solve: Any):
-    """A feature symmetric in Y is solved on the half: the same as on the whole."""
+    """A feature symmetric in Y is solved on half the domain: the result is that of the whole."""
     half = solve(POINT, 65, DENT | TIGHT)
     whole = solve(POINT, 65, DENT | TIGHT | {"solver.symmetry": "full"})
     assert half["half_domain"]
@@ -106,8 +106,8 @@ def test_half_domain(solve: Any):
 
 
 def test_small_features_are_linear(solve: Any):
-    """Twice the depth is twice the change, a bump the opposite of a dent, none is smooth."""
-    # half way through the contact
+    """Twice the depth gives twice the change, a bump the opposite of a dent."""
+    # when the feature is half way through the contact
     stop = {"time.steps": 45, "grid.points": 65}
 
     def change(kind: str, amplitude: float) -> tuple[Any, Any]:
@@ -131,7 +131,7 @@ def test_small_features_are_linear(solve: Any):
 
 
 def test_extremes_and_the_end(solve: Any):
-    """The extremes are those of all steps; the run ends behind the feature."""
+    """The extremes are those of all steps; the run ends when the feature has left."""
     done = solve(POINT, 65, DENT, fields=True)
     assert done.converged
     history = done.history
@@ -162,9 +162,9 @@ def test_extremes_and_the_end(solve: Any):
 
 @pytest.mark.parametrize("ratio", [0.6, 1.0, 1.6])
 def test_film_moves_with_the_mean_velocity(ratio: float, solve: Any):
-    """In the contact nothing flows by pressure: what is made of the film in the inlet is convected.
+    """The contact convects the film that the inlet produces, as nothing flows by pressure there.
 
-    So whatever the velocity of a small dent, what it leaves in the film moves with the mean one.
+    So at any velocity of a small dent, the change that it makes in the film moves at the mean one.
     """
     keys = DENT | {
         "surface.velocity_ratio": ratio,
@@ -177,17 +177,17 @@ def test_film_moves_with_the_mean_velocity(ratio: float, solve: Any):
     times, frames = done.field("frame_T"), done.field("frame_H")
     change = frames[:, row, :] - done.field("H_smooth")[:, row, None]
     inside = np.abs(x) < 0.75
-    # where the film is thickened most, while that is well inside the contact
+    # where the film is thickest, while that is well inside the contact
     most, place = change[inside].max(axis=0), x[inside][change[inside].argmax(axis=0)]
     here = (most > 0.8 * most.max()) & (np.abs(place) < 0.7)
     assert here.sum() >= 15
     speed = np.polyfit(times[here], place[here], 1)[0]
-    # a mesh size over the way of 1.4 a
+    # a mesh size over the distance of 1.4 a
     assert speed == pytest.approx(1.0, abs=0.022)
 
 
 def test_bump_higher_than_the_film(solve: Any):
-    """A bump higher than the film ends in a negative film, without results."""
+    """A bump higher than the film ends the run with a negative film, without results."""
     done = solve(POINT, 65, DENT | {"surface.kind": "bump", "surface.amplitude": 0.3})
     assert done.code == 1
     assert done["status"] == "negative film"
@@ -196,7 +196,7 @@ def test_bump_higher_than_the_film(solve: Any):
 
 
 def test_resume(ehl: str, tmp_path: Path):
-    """What was seen before a stop is not forgotten."""
+    """A resumed run keeps the extremes from before the stop."""
     case = tmp_path / "case.nml"
     case.write_text(
         "&contact moes_m = 200.0 moes_l = 10.0 slide_to_roll = 0.0 /\n&grid points = 65 /\n"
@@ -216,7 +216,7 @@ def test_resume(ehl: str, tmp_path: Path):
 
 
 def test_commands(tmp_path: Path, cases: Path, capsys: pytest.CaptureFixture[str]):
-    """The plan, neither a tile nor a prediction, the picture and the movie."""
+    """Plan, tile, prediction, picture and movie: there is neither a tile nor a prediction."""
     dent = str(cases / "dent.nml")
     assert cli.main(["check", dent]) == 0
     plan = capsys.readouterr().out

@@ -31,14 +31,14 @@ FAST = {
 
 
 def test_agreement_with_another_program(solve, root):
-    """Another program: 0.0330, isothermal 0.0563; 69 K in the film, 35 K on the walls' mean."""
+    """Another program has 0.0330, isothermal 0.0563; 69 K in the film, 35 K mean of the walls."""
     done = solve(None, 257, FAST, words=True)
     assert done["mu_isothermal"] == pytest.approx(0.0563, rel=6e-3)
     assert done["mu"] == pytest.approx(0.0330, rel=6e-3)
     assert done["temperature_rise_max_K"] == pytest.approx(69.0, abs=0.6)
     walls = [done[f"temperature_rise_wall_{k}_max_K"] for k in (1, 2)]
     assert np.mean(walls) == pytest.approx(35.0, abs=0.6)
-    # the faster wall carries more heat off, and the formula is made for such a contact
+    # the faster wall removes more heat, and the formula applies to such a contact
     assert walls[0] < walls[1]
     assert done["flash_temperature_K"] == pytest.approx(np.mean(walls), rel=0.03)
     assert "temperature" in done["mu_note"]
@@ -67,7 +67,7 @@ def test_traction_rises_and_falls(solve, root, srr, mu):
 
 
 def test_heat_of_slow_sliding_is_not_computed(solve):
-    """Slow sliding: not computed, and it would change nothing that could be seen."""
+    """At slow sliding heat is not computed, as it would change the friction negligibly."""
     slow = FAST | {"contact.slide_to_roll": 5e-5}
     left_out = solve(None, 65, slow, words=True)
     always = solve(None, 65, slow | {"lubricant.thermal_friction": "always"})
@@ -81,7 +81,7 @@ def test_heat_of_slow_sliding_is_not_computed(solve):
 
 
 def test_which_wall_is_hot(solve):
-    """A wall that stands still, one that conducts badly; the sense of the sliding."""
+    """A wall at rest, a wall of low conductivity; the direction of sliding."""
     standing = solve(None, 65, FAST | {"contact.slide_to_roll": 2.0}, fields=True)
     assert standing["temperature_rise_wall_2_max_K"] > 2 * standing["temperature_rise_wall_1_max_K"]
     glass = {"contact.thermal_conductivity_2": 1.0, "contact.thermal_diffusivity_2": 5e-7}
@@ -97,7 +97,7 @@ def test_which_wall_is_hot(solve):
 
 
 def test_fields(solve):
-    """Kelvin at the nodes: symmetric in Y, none before the contact, walls warm behind it."""
+    """Temperatures at the nodes: symmetric in Y, zero before the contact, warm walls behind it."""
     done = solve(None, 65, FAST, fields=True)
     film, first, second = (done.field(name) for name in (FILM, WALL_1, WALL_2))
     assert film.max() == pytest.approx(done["temperature_rise_max_K"], rel=1e-12)
@@ -110,7 +110,7 @@ def test_fields(solve):
 
 
 def test_elliptical_contact(solve):
-    """Contacts that are wide across the motion and along it: rows are computed alone."""
+    """Contacts that are wide across the motion and along it; heat flows within each row only."""
     wide = {"contact.radius_x": 0.01, "contact.radius_y": 0.04}
     long = {"contact.radius_x": 0.04, "contact.radius_y": 0.01}
     keys = {key: value for key, value in FAST.items() if key not in ("contact.radius",)}
@@ -120,7 +120,7 @@ def test_elliptical_contact(solve):
         walls = [done[f"temperature_rise_wall_{k}_max_K"] for k in (1, 2)]
         assert done["flash_temperature_K"] == pytest.approx(np.mean(walls), rel=0.03)
         assert 0.4 < done["mu"] / done["mu_isothermal"] < 0.9
-    # the same load and heat, but a longer way to take it up
+    # the same load and heat, but over a longer distance
     assert (
         result[1]["temperature_rise_wall_1_max_K"]
         > 1.1 * result[0]["temperature_rise_wall_1_max_K"]
@@ -128,11 +128,11 @@ def test_elliptical_contact(solve):
 
 
 def test_no_heat_twice(solve):
-    """Shear heating of the inlet thins the film; what is in the contact begins cold."""
+    """Shear heating of the inlet thins the film; the heat of the contact starts at zero."""
     warm = FAST | {"lubricant.thermal_reduction": True}
     done = solve(None, 65, warm)
     assert done["inlet_viscosity_Pa_s"] < 0.04
-    # the same film from an oil as thin as that of the inlet; but then the contact is thin, too
+    # the same film by an oil as thin as that of the inlet; but that is thin in the contact, too
     film = {"lubricant.viscosity": done["inlet_viscosity_Pa_s"]}
     z = {"lubricant.roelands_z": 2.2e-8 * 1.96e8 / (np.log(0.04) + 9.67)}
     thin = solve(None, 65, FAST | film | z)
@@ -157,7 +157,7 @@ def test_rough_contact(solve, velocity):
     slip = {"contact.slide_to_roll": keys["contact.slide_to_roll"]}
     smooth = solve(None, 65, FAST | slip)
     assert done["mu"] / smooth["mu"] == pytest.approx(done["mu_ratio"], rel=0.03)
-    # with two heats there would be a product that does not hold
+    # a mu_smooth with heat times mu_ratio would not be mu
     assert done.summary.get("mu_smooth") is None
     assert "mu_isothermal = mu_ratio mu_smooth_isothermal" in done["mu_note"]
     assert done["temperature_rise_max_K"] == pytest.approx(done.field(FILM).max(), rel=1e-12)
@@ -174,7 +174,7 @@ def test_rough_contact(solve, velocity):
     "radii", [(0.018, 0.018), (0.01, 0.04), (0.04, 0.01)], ids=["circle", "wide", "narrow"]
 )
 def test_prediction_includes_the_heat(radii: tuple[float, float]):
-    """The prediction applies the heat of the smooth contact under it, on its own grid."""
+    """The prediction applies the heat of its smooth contact, on its own grid."""
     keys = {
         key: value
         for key, value in FAST.items()
@@ -191,7 +191,7 @@ def test_prediction_includes_the_heat(radii: tuple[float, float]):
     assert result["temperature_rise_max_K"] == pytest.approx(
         solved["temperature_rise_max_K"], rel=0.02
     )
-    # at its own friction, of the rough contact
+    # with the friction of the rough contact
     assert result["flash_temperature_K"] == pytest.approx(
         solved["flash_temperature_K"] * result["mu"] / solved["mu"], rel=1e-9
     )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A second solver of the same discrete equations comes to the same friction and the same end."""
+"""A second solver of the same discrete equations gives the same friction and the same end."""
 
 from itertools import islice
 
@@ -51,7 +51,7 @@ def test_same_friction(
     steps = islice(second.steps(Wave(amplitude, wavelength, wavelength)), done["steps"])
     ratios = np.array([ratio for ratio, _ in steps])
     assert ratios.max() > 1.05
-    # Both are the solution of the same equations: what differs is the algebraic error
+    # Both solve the same equations, up to the algebraic error
     assert done.history["mu_ratio"] == pytest.approx(ratios, rel=1e-4)
 
 
@@ -68,7 +68,7 @@ def test_same_friction(
     ],
 )
 def test_same_films_of_an_ellipse(solve, table, point: tuple[float, float], kappa: float, points):
-    """Of the ellipses of smooth_ellipses.csv; on cells of 1/32 their rows, too."""
+    """Ellipses of smooth_ellipses.csv; with cells of 1/32 also the rows of that table."""
     (row,) = (
         row
         for row in table("smooth_ellipses.csv")
@@ -87,7 +87,7 @@ def test_same_films_of_an_ellipse(solve, table, point: tuple[float, float], kapp
     films = film[np.argmin(second.x**2 + second.y**2)], film[p > 0.0].min()
     assert (done["H_c"], done["H_min"]) == pytest.approx(films, rel=1e-4)
     if points == 129:
-        # rows of the minimum differ where the other program had another domain
+        # rows of the minimum film differ if the other program used another domain
         h_c, h_min = (5e-5, 5e-5) if kappa < 1.0 else (3e-4, 3e-3)
         assert films[0] == pytest.approx(float(row["H_c"]), rel=h_c)
         assert films[1] == pytest.approx(float(row["H_min"]), rel=h_min)
@@ -127,8 +127,8 @@ def test_same_friction_by_default_settings(
     steps = islice(second.steps(Wave(done["amplitude"], wavelength, wavelength)), done["steps"])
     ratios = np.array([ratio for ratio, _ in steps])
     assert ratios.max() > 1.5
-    # What differs is the algebraic error; a tenth of the discretisation error, 1.9e-2 for the wave
-    # of Fig. 2 on this grid
+    # The difference is the algebraic error, a tenth of the discretisation error, which is 1.9e-2
+    # for the wave of Fig. 2 on this grid
     assert done.history["mu_ratio"] == pytest.approx(ratios, rel=1.9e-3)
 
 

@@ -22,7 +22,7 @@ LAWS = {
 
 
 def words(law: ShearLaw) -> dict[str, object]:
-    """The law as keys of a case, for the friction alone."""
+    """Keys of the law in a case, for the friction alone."""
     keys: dict[str, object] = {"lubricant.shear_law": law.law, "lubricant.flow": "newtonian"}
     if law.law == "carreau":
         keys["lubricant.carreau_stress"] = law.carreau_stress
@@ -57,7 +57,7 @@ def test_every_law_is_newtonian_when_slow(solve, name):
     newtonian = solve(None, 65, SI)["F"]
     law = SI | words(LAWS[name])
     slow = solve(None, 65, law | {"contact.slide_to_roll": 1e-9})["F"]
-    # a limit in proportion to pressure is zero where p = 0: 3e-6 of the friction
+    # a limit proportional to pressure is zero where p = 0: 3e-6 of the friction
     assert slow == pytest.approx(newtonian, rel=5e-6)
     assert solve(None, 65, law | {"contact.slide_to_roll": 0.0})["F"] == newtonian
 
@@ -79,14 +79,14 @@ def test_one_motion_in_three_notations(solve):
 
 
 def test_stress_laws_in_time_steps(solve):
-    """Every step has the friction of the law, to which a wave adds little."""
+    """The friction of each step follows the law; the wave changes it little."""
     newtonian = solve(None, 65, SI | WAVE)
     law = words(LAWS["eyring"])
     eyring = solve(None, 65, SI | WAVE | law, fields=True)
     assert np.array_equal(eyring.history["H_c"], newtonian.history["H_c"])
     swing = np.ptp(newtonian.history["mu_ratio"])
     assert 0.0 < np.ptp(eyring.history["mu_ratio"]) < 0.1 * swing
-    # all cycles full, as before a rough run
+    # all cycles are full ones, as before a rough run
     smooth = solve(None, 65, SI | law | {"solver.cycle": "F"})["F"]
     last = friction(eyring, ShearLaw("eyring"), 0.02) / smooth
     assert eyring.history["mu_ratio"][-1] == pytest.approx(last, rel=1e-12)

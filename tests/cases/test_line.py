@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The infinite line contact: reference values, order, scales, borders, what it refuses."""
+"""The infinite line contact: reference values, order, scales, borders, refusals."""
 
 import json
 import math
@@ -42,7 +42,7 @@ def test_reference_values(moes_m, moes_l, h_c, h_min):
     result = pyehl.solve(moes(moes_m, moes_l, 1025, **DOMAIN))
     assert float(result.H_c_extrapolated) == pytest.approx(h_c, rel=3e-3)
     assert float(result.H_min_extrapolated) == pytest.approx(h_min, rel=3e-3)
-    # the limit is within twice the stated error of what the grid has
+    # the limit is within twice the stated error of the finest grid of the table
     assert abs(float(result.H_c) - h_c) < 2.0 * float(result.H_c_error) + 1e-3 * h_c
 
 
@@ -64,7 +64,7 @@ def test_line_contact_has_order_two():
 
 
 def test_few_cycles():
-    # Newton steps on one row leave little: two cycles a level
+    # Newton steps on one row converge fast: two cycles per level
     result = pyehl.solve(moes(20, 10, 4097))
     assert int(result.total_cycles) <= 2 * 7 + 2
     assert abs(float(result.load_error)) < 1e-6
@@ -91,7 +91,7 @@ def test_resolved_case_is_the_same_case():
     assert case.resolve()["contact"]["shape"] == "line"
     assert "load" not in case.resolve()["contact"]
     assert "y_extent" not in case.resolve()["grid"]
-    # nor has a point a key of a line
+    # nor does a point contact accept a key of a line
     assert not {"shape", "load_per_length"} & set(pyehl.Case().resolve()["contact"])
 
 
@@ -103,7 +103,7 @@ def test_scales_and_integrals_are_per_length():
     assert float(result.moes_m_line) == pytest.approx(line.moes_m, rel=1e-12)
     x, p, h = result.x_m.values, result.p_Pa.values[:, 0], result.h_m.values[:, 0]
     mesh = x[1] - x[0]
-    # the border carries what lies beyond it
+    # the border has the pressure of the flooded inlet beyond it
     assert mesh * p.sum() == pytest.approx(line.load_per_length, rel=1e-3)
     lubricant = settings_of(result)["lubricant"]
     z, p0 = lubricant["roelands_z"], lubricant["roelands_p0"]
@@ -129,13 +129,13 @@ def test_thinning_and_heat():
 
 
 def test_moving_heat_source():
-    """The flash temperature is that of a fast band of heat under a semi-ellipse of flux."""
+    """The flash temperature is that of a fast band of heat with a semi-elliptical flux."""
     result = pyehl.solve(roller(513), SLIDING, {"lubricant.temperature_viscosity": 0.04})
     line = LineContact.from_settings(settings_of(result))
     flux = float(result.mu) * line.hertz_pressure * line.sliding_speed
     x = np.linspace(-1.0, 1.0, 4001)
     s = 0.5 * (x[1:] + x[:-1])
-    # int sqrt(1 - x^2)/sqrt(s - x) dx, cells of which are integrated exactly
+    # int sqrt(1 - x^2)/sqrt(s - x) dx, by exact integrals over cells
     rise = 0.0
     for at in np.linspace(0.0, 1.0, 201):
         inner = s < at
@@ -175,7 +175,7 @@ def test_flooded_border(moes_m, moes_l):
     error = float(near.H_c_error_domain)
     assert float(near.H_c_extrapolated) == pytest.approx(film, rel=1e-3)
     assert error < 1e-3 * film
-    # P = 0 takes film, no more than is stated
+    # P = 0 reduces the film, by no more than the stated error
     for inlet in (-2.0, -4.0):
         zero = pyehl.solve(moes(moes_m, moes_l, 1025, border="zero", x_inlet=inlet), check=False)
         lost = film - float(zero.H_c_extrapolated)
@@ -260,7 +260,7 @@ def test_no_operating_point(root):
 
 
 def test_inlet_that_is_too_short():
-    """A run without a result there asks for a longer inlet, not for a finer grid."""
+    """A run that fails there suggests a longer inlet, not a finer grid."""
     with pytest.raises(pyehl.NotConverged) as info:
         pyehl.solve(moes(0.5, 5.0, 257, x_inlet=-1.2))
     message = info.value.results.attrs["message"]
@@ -281,7 +281,7 @@ def test_picture_and_report(root, tmp_path):
 
 
 def test_keys_of_a_line_in_messages(ehl: str, tmp_path: Path):
-    """What is expected names the keys of a line, by pyehl as by ehl."""
+    """Messages about a line suggest keys of a line, by pyehl as by ehl."""
     keys = {"contact.shape": "line", "contact.load_per_length": 1e5, "contact.moes_m_line": 10.0}
     expected = "moes_m_line and moes_l_line, or load_per_length"
     with pytest.raises(pyehl.InputError, match=expected):

@@ -33,13 +33,13 @@ def test_amplitude_reduction(moes_m, wavelength, points):
         1.0 / (1.0 + 0.17 * x + 0.03 * x**2), rel=0.1
     )
     assert result.P.shape == (points, 1)
-    # of one wave, where a product of two has A/2
+    # of one wave; a product of two waves has A/2
     rms = float(result.amplitude) / math.sqrt(2.0)
     assert float(result.lambda_ratio_central) == pytest.approx(float(result.H_c) / rms, rel=1e-6)
 
 
 def test_strip_of_a_transverse_wave(tmp_path):
-    """A map that does not vary across, on a strip, is the wave on one row."""
+    """A map that is uniform across, on a strip, is the wave on one row."""
     row = roller(129, **TRANSVERSE, **{"surface.amplitude": 0.01, "surface.wavelength_x": 1.0})
     wave = pyehl.solve(row)
     unit = float(wave.film_scale_m)
@@ -60,14 +60,14 @@ def test_strip_of_a_transverse_wave(tmp_path):
     )
     result = pyehl.solve(strip)
     assert result.P.shape[1] == int(result.points_y) > 8
-    # nothing varies across but what cycles leave
+    # nothing varies across but the remaining residual
     assert float(np.ptp(result.H.values, axis=1).max()) < 1e-5
     assert float(result.mu_ratio) == pytest.approx(float(wave.mu_ratio), abs=2e-4)
     assert float(result.H_c) == pytest.approx(float(wave.H_c), rel=1e-4)
 
 
 def test_strip_of_waves_across():
-    """Long crests are as transverse waves; friction grows by half, as the square of the heights."""
+    """Long crests act as transverse waves; friction grows by half, as the square of the heights."""
     small = {"surface.wavelength_x": 1.0, "surface.amplitude_over_film": 0.05}
     row = pyehl.solve(moes(20, 10, 129), TRANSVERSE, small)
     long = pyehl.solve(moes(20, 10, 129), {**TRANSVERSE, "surface.wavelength_y": 4.0}, small)
@@ -78,7 +78,7 @@ def test_strip_of_waves_across():
 
 @pytest.mark.parametrize("coarsening", ["classical", "alcouffe"])
 def test_half_a_strip_equals_the_whole_one(coarsening):
-    """Waves that are even in Y: rows from Y = 0 to half the width, to the rounding of the steps."""
+    """Waves that are even in Y: half the rows give the same, to the rounding of the steps."""
     wave = {"surface.kind": "harmonic", "surface.amplitude": 0.02, "surface.wavelength": 1.0}
     few = {"time.steps": 6, "time.skip_start": False, "solver.coarsening": coarsening}
     case = moes(20, 10, 129).with_options(wave | few)
@@ -92,7 +92,7 @@ def test_half_a_strip_equals_the_whole_one(coarsening):
     for name in ("P", "H", "RR"):
         np.testing.assert_allclose(half[name].values, whole[name].values, atol=1e-9)
     assert np.ptp(half.H.values, axis=1).max() > 0.01
-    # beside the middle of a dent the strip has no half
+    # with a dent off its middle the strip is not symmetric
     dent = {"surface.kind": "dent", "surface.width": 0.5, "surface.amplitude": 0.02}
     aside = moes(20, 10, 65).with_options(dent | few | {"surface.y_start": 0.2})
     assert not pyehl.solve(aside, check=False).attrs["half_domain"]
@@ -154,7 +154,7 @@ def wide_and_line() -> list[pyehl.Case]:
 
 @pytest.mark.parametrize(("film", "touching"), [(0.08, False), (0.1, True), (0.12, True)])
 def test_boundary_film_in_the_middle_of_a_wide_ellipse(film, touching):
-    """Film and pressure along the motion; both grow apart by 0.6 % without a boundary film."""
+    """Film and pressure along the motion; without a boundary film both differ by 0.6 %."""
     rows = []
     for case in wide_and_line():
         scale = float(pyehl.solve(case).film_scale_m)
@@ -162,7 +162,7 @@ def test_boundary_film_in_the_middle_of_a_wide_ellipse(film, touching):
         result = pyehl.solve(case, options)
         middle = result.Y.size // 2
         rows.append((result.X.values, result.P.values[:, middle], result.H.values[:, middle]))
-        # around an ellipse oil flows; a line lets all of it through
+        # oil flows around an ellipse; on a line all of it passes through
         assert (float(result.contact_load_share) > 0.7) == touching
     (x, p, h), (x_line, p_line, h_line) = rows
     np.testing.assert_allclose(x, x_line)
@@ -172,7 +172,7 @@ def test_boundary_film_in_the_middle_of_a_wide_ellipse(film, touching):
 
 
 def test_dent_in_the_middle_of_a_wide_ellipse():
-    """What a dent changes in pressure and film along its centre, while it is in the contact."""
+    """Pressure and film change by a dent along its centre line, while it is in the contact."""
     dent = {"surface.kind": "dent", "surface.width": 0.8, "surface.amplitude": 0.05}
     rolling = {"contact.slide_to_roll": 0.0, "time.estimate_error": False, "time.steps": 38}
     wide, line = wide_and_line()
@@ -189,7 +189,7 @@ def test_dent_in_the_middle_of_a_wide_ellipse():
         for change, expected in zip(strip, changes[0], strict=True):
             off = np.sqrt(np.mean((change - expected)[inner] ** 2))
             assert off < 0.005 * np.abs(expected).max()
-    # twice as many on the same length, twice the share of the friction
+    # twice as many dents on the same length have twice the share of friction
     few, many = (
         float(pyehl.solve(line, dent, {**rolling, "time.steps": 0}, spacing).mu_ratio) - 1.0
         for spacing in ({"surface.spacing_y": 4.0}, {"surface.spacing_y": 2.0})
@@ -214,7 +214,7 @@ def test_features_that_do_not_repeat_along_a_line():
 
 
 def test_alcouffe_on_a_strip():
-    """Transfers by the conductance over the repeating edge: the same but for what cycles leave."""
+    """Transfers by the conductance over the repeating edge: the same to the algebraic error."""
     wave = {"surface.kind": "harmonic", "surface.wavelength": 1.0, "time.estimate_error": False}
     wave |= {"surface.amplitude_over_film": 0.6, "contact.slide_to_roll": 0.0}
     domain = {"x_inlet": -2.5, "x_outlet": 1.5}
@@ -227,14 +227,14 @@ def test_alcouffe_on_a_strip():
     assert float(alcouffe.mu_ratio) - 1.0 == pytest.approx(increase, rel=1e-3)
     assert (alcouffe.P.values != classical.P.values).any()
     np.testing.assert_allclose(alcouffe.P.values, classical.P.values, atol=5e-3)
-    # one row has nothing to transfer along the line
+    # one row has no neighbour along the line
     row = {"surface.wavelength_x": 1.0, "surface.wavelength_y": 1e6}
     with pytest.raises(pyehl.InputError, match="nothing varies along a line"):
         pyehl.solve(moes(20, 10, 129), wave, row, {"solver.coarsening": "alcouffe"})
 
 
 def test_strip_that_is_too_wide():
-    """Tens of thousands of rows are an oversight, which the message names."""
+    """Tens of thousands of rows are an oversight; the message states the number."""
     wave = {"surface.kind": "harmonic", "surface.wavelength_x": 1.0, "surface.wavelength_y": 1e3}
     with pytest.raises(pyehl.InputError, match=r"repeat after 1\.000E\+03 b has .* rows") as info:
         pyehl.solve(moes(20, 10, 129), wave)

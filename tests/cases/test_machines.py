@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contacts of machine elements: the cases of the how-tos, and the numbers in these."""
+"""Contacts of machine elements: the cases of the how-tos, and the numbers on their pages."""
 
 import json
 import math
@@ -40,7 +40,7 @@ def same(shown: list[str], printed: str) -> None:
 
 
 def row_of(text: str) -> str:
-    """The films of the last lines as the table of the page has them."""
+    """The films of the last lines as in the table of the page."""
     films = [re.findall(rf"{name} ([\d.]+) \+- ([\d.]+) nm", text)[0] for name in ("h_c", "h_min")]
     return " | ".join(f"{film} ± {error} nm" for film, error in films)
 
@@ -57,13 +57,13 @@ def test_ball_bearing(root: Path, drive, tmp_path: Path):
     unit = result["film_scale_m"] * 1e9
     films = [result[f"{name}_extrapolated"] * unit for name in ("H_c", "H_min")]
     assert f"| {films[0]:.1f} nm | {films[1]:.1f} nm |" in text
-    # those of its regime
+    # the formulas are those of its regime
     for formula in (f for f in sheet["formulas"] if f["applies"]):
         least = f" {formula['h_min_m'] * 1e9:.1f} nm |" if formula["h_min_m"] else ""
         assert f"| {formula['h_c_m'] * 1e9:.1f} nm |{least}" in text
     assert f"{result['rolling_moment_N_m'] * 1e4:.2f}·10⁻⁴ N m" in text
     assert f"is {1 - result['H_min'] / result['H_c']:.0%} below".replace("%", " %") in text
-    # bearing, speed and load make the case
+    # bearing, speed and load determine the case
     given = pyehl.Case(case).resolve()
     ball, pitch = 7.938e-3, 33.5e-3
     assert given["bodies"]["radius_x1"] == pytest.approx(0.5 * ball)
@@ -105,14 +105,14 @@ def test_gear_pair(root: Path, drive, tmp_path: Path):
     for name in ("H_c", "H_min", "H_c_extrapolated", "mu_smooth"):
         # converged to another tolerance before time steps
         assert result[name] == pytest.approx(record[name], rel=2e-3)
-    # the block still makes the flanks
+    # the printed options still give the flanks
     (block,) = re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)
     (tmp_path / "cases").mkdir()
     subprocess.run([sys.executable, "-P", "-c", block], cwd=tmp_path, check=True)
     for name in ("flank_1.npy", "flank_2.npy"):
         made, kept = (np.load(place / "cases" / name) for place in (tmp_path, root))
         assert made == pytest.approx(kept, abs=1e-13)
-    # gears, speed and slip make the case
+    # gears, speed and slip determine the case
     given = pyehl.Case(case).resolve()
     angle = math.acos(90.0 * math.cos(math.radians(20.0)) / 91.5)
     radius = 0.5 * 91.5e-3 * math.sin(angle)
@@ -136,7 +136,7 @@ def test_record_of_the_gear_pair(root: Path, tmp_path: Path):
 
 
 def test_border_of_an_ellipse(root: Path, solve):
-    """The default is flooded, and thicker than tables with P = 0 on a small domain have it."""
+    """The default is flooded, and thicker than in tables with P = 0 on a small domain."""
     text = plain(root / "docs" / "theory" / "border.md")
     keys = {"contact.radius_ratio": 0.35177, "lubricant.roelands_z": 0.6684}
     place = {"grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.y_extent": 4.0}
@@ -146,7 +146,7 @@ def test_border_of_an_ellipse(root: Path, solve):
 
 
 def test_rolling_moment_grows_with_the_domain(root: Path, solve):
-    """In a round contact towards the asymptote of Biboulet & Houpert 2010, with its logarithm."""
+    """A round contact tends to the asymptote of Biboulet & Houpert 2010, with its logarithm."""
     text = plain(root / "docs" / "theory" / "border.md")
     shares = []
     for width, points in ((4.0, 129), (8.0, 257), (16.0, 513)):
@@ -160,7 +160,7 @@ def test_rolling_moment_grows_with_the_domain(root: Path, solve):
 
 @pytest.mark.parametrize("radii", [(0.01, 0.1), (0.033, 0.01)])
 def test_order_and_limit_in_si_units(solve, radii):
-    """R_x/R_y of 0.1 and of 3.3: order 2, and one limit from any two grids."""
+    """R_x/R_y of 0.1 and of 3.3: order 2, and the same limit from any two grids."""
     keys = {
         "contact.load": 50.0,
         "contact.mean_velocity": 1.0,
@@ -188,7 +188,7 @@ def test_a_sweep_over_ellipses(tmp_path: Path):
 
 
 def test_resumed_on_an_ellipse(drive, tmp_path: Path):
-    """A wave on a turned contact, stopped and resumed, to the bits of an unbroken run."""
+    """A wave on an ellipse at an angle, stopped and resumed, has the bits of an unbroken run."""
     (tmp_path / "case.nml").write_text(
         "&contact load = 20.0 radius_x = 0.01 radius_y = 0.02 angle = 20 /\n"
         "&grid points = 33 /\n&output checkpoint_interval = 1e-3 /\n"
@@ -249,7 +249,7 @@ def test_bad_input_has_place_and_remedy(text: str, place: str, message: str, rem
     [
         ({"contact.moes_m": 5000.0}, 513),
         ({"contact.moes_m": 5300.0}, 1025),
-        # M by R_x; that of the round contact is a fifth of it
+        # M by R_x; the equivalent M of the round contact is a fifth of it
         ({"contact.moes_m": 20000.0, "contact.radius_ratio": 0.04}, 513),
         ({"contact.moes_m": 9000.0, "grid.points": 257}, 257),
         ({"contact.moes_m": 9000.0, "grid.target_error": 0.05}, 513),
@@ -277,7 +277,7 @@ def test_default_border_of_a_wide_contact(kappa, border):
 def test_growing_residual_restarts_with_damped_cycles():
     """A crowned roller with L = 32, kappa = 15 on a wide domain: one restart with damped cycles.
 
-    Left alone these cycles end at the cycle limit.
+    Without the restart the cycles end at the cycle limit.
     """
     keys = {
         "contact.radius_x": 0.00370017,
@@ -322,7 +322,7 @@ def test_sharp_pressure_spike_ends_at_the_cycle_limit():
 
 @pytest.mark.long
 def test_shear_thinning_begins_with_a_damped_flow():
-    """Without that it had no first cycle on any grid."""
+    """With the Newtonian flow no first cycle converged on any grid."""
     contact = {
         "reduced_modulus": 2.26e11, "load": 9552.0, "radius_x": 0.01413, "radius_y": 0.8384,
         "mean_velocity": 9.433, "slide_to_roll": 0.06655,
@@ -335,7 +335,7 @@ def test_shear_thinning_begins_with_a_damped_flow():
         assert result.attrs["status"] == "converged"
         assert result.restarts == 0
         films[stress] = float(result.H_c)
-    # the law of the case is the one at the end: a smaller stress thins the film
+    # the final solution uses the law of the case: a smaller stress thins the film
     assert 0.75 < films[1.301e6] / films[5.2e6] < 0.9
 
 

@@ -18,8 +18,8 @@ from pyehl.surfaces import Topography
 from pyehl.surfaces.map_steps import mirrored
 from pyehl.surfaces.reading import read_scan
 
-# A light load, which 65 x 65 nodes resolve; at rest the heights of the tile on the nodes are the
-# field RR
+# A light load, which 65 x 65 nodes resolve; at zero velocity the field RR has the heights of the
+# tile at the nodes
 REST = {
     "contact.load": 20.0,
     "surface.kind": "map",
@@ -31,7 +31,7 @@ POINTS = 65
 
 
 def rough(pixels: tuple[int, int], seed: int = 1, height: float = 1e-11) -> np.ndarray:
-    """Noise, too low to change the pressure."""
+    """Noise that is too low to change the pressure."""
     return height * np.random.default_rng(seed).standard_normal(pixels)
 
 
@@ -58,7 +58,7 @@ def on_nodes(done: Any, z: np.ndarray, lengths: tuple[float, float], *, cut: boo
     return total.real / scale
 
 
-# Tiles that are coarser than the grid, finer, odd, longer than the domain, and a small part of it
+# Tiles that are coarser or finer than the grid, odd, longer than the domain, and a small part of it
 @pytest.mark.parametrize(
     ("pixels", "lengths"),
     [
@@ -78,7 +78,7 @@ def test_heights_are_the_fourier_series(solve, tmp_path: Path, pixels, lengths):
     expected = on_nodes(done, z, lengths, cut=True)
     # along Y exact; along X the polynomial between points, of the shortest wave 2e-5
     assert done.field("RR") == pytest.approx(expected, abs=3e-5 * np.abs(expected).max())
-    # and the share that is left out
+    # and the fraction that is omitted
     total = np.var(z)
     kept = np.mean(on_variance(z, lengths, done))
     assert done["variance_left_out"] == pytest.approx(1.0 - kept / total, abs=1e-12)
@@ -87,7 +87,7 @@ def test_heights_are_the_fourier_series(solve, tmp_path: Path, pixels, lengths):
 def on_variance(
     z: np.ndarray, lengths: tuple[float, float], done: Any, nodes: float = 2.0
 ) -> float:
-    """Variance of the waves with more nodes a period than that (for more than two: or as many)."""
+    """Variance of waves of more nodes per period than `nodes` (for more than two: or as many)."""
     power = np.abs(np.fft.fft2(z - z.mean()) / z.size) ** 2
     a = done["hertz_radius_m"]
     slack = 1e-9 if nodes <= 2.0 else -1e-9
@@ -115,7 +115,7 @@ def test_unresolved_variance(solve, tmp_path: Path):
     ("wavelength", "velocity", "share"), [(0.5, 1.01, 0.0), (0.45, 1.01, 1.0), (0.6, 1.9, 1.0)]
 )
 def test_unresolved_wave(solve, wavelength: float, velocity: float, share: float):
-    """Eight nodes of 1/16, in space, and in time for what is faster than the mean."""
+    """Eight nodes of 1/16, in space, and in time for waves faster than the mean velocity."""
     wave = {
         "surface.kind": "harmonic",
         "surface.amplitude": 1e-4,
@@ -145,7 +145,7 @@ def test_a_wave_shorter_than_two_nodes_is_refused(drive, tmp_path: Path, driver:
 
 @pytest.mark.parametrize("kind", ["sharp", "gaussian"])
 def test_cut_is_that_of_python(solve, tmp_path: Path, kind: str):
-    """The solver's own filter, and a map that was filtered before."""
+    """The filter of the solver against a map that was filtered before."""
     z = rough((64, 64))
     lengths = (2.7e-4, 2.7e-4)
     cut = surfaces.filtered(Topography(z - z.mean(), lengths), 2.2e-5, 1.6e-4, kind)
@@ -160,7 +160,7 @@ def test_cut_is_that_of_python(solve, tmp_path: Path, kind: str):
     size = {"surface.length_x": lengths[0], "surface.length_y": lengths[1]}
     done = solve(None, POINTS, REST | size | keys | {"surface.file": file}, fields=True)
     other = solve(None, POINTS, REST | size | {"surface.file": before}, fields=True)
-    # the polynomial between points is finer where fewer waves are left
+    # the polynomial between points is finer where fewer waves remain
     scale = np.abs(other.field("RR")).max()
     assert done.field("RR") == pytest.approx(other.field("RR"), abs=3e-5 * scale)
     assert done["surface_rms_m"] == pytest.approx(cut.rms_height, rel=1e-12)
@@ -183,7 +183,7 @@ def test_rms_height_is_that_before_the_cut(solve):
 
 @pytest.mark.long
 def test_long_text_lines(tmp_path: Path):
-    """One row of more than a mebibyte, in any of the usual separators."""
+    """One row of more than a mebibyte, with any of the usual separators."""
     z = rough((4, 45000))
     cells = [[f"{v:.17e}" for v in row] for row in z]
     texts = {"blank.txt": " ", "comma.csv": ",", "semicolon.csv": ";", "tab.txt": "\t"}
@@ -217,7 +217,7 @@ def test_rows_that_are_not_numbers_are_refused(drive, tmp_path: Path, row: str, 
 
 
 def test_map_larger_than_memory_is_refused(drive, tmp_path: Path):
-    """A sparse file: 320 GB that take no room on the disk."""
+    """A sparse file of 320 GB, which takes no space on the disk."""
     n = 200_000
     header = f"{{'descr': '<f8', 'fortran_order': False, 'shape': ({n}, {n}), }}"
     header += " " * (117 - len(header)) + "\n"
@@ -237,7 +237,7 @@ def test_map_larger_than_memory_is_refused(drive, tmp_path: Path):
     assert not (tmp_path / "out").exists()
 
 
-# The grid resolves all waves of the coarser map, of the finer one those that are left and not all
+# The grid resolves all waves of the coarser map, and a part of those of the finer one
 @pytest.mark.parametrize(("pixel", "cut"), [(8e-6, 24e-6), (4e-5, 0.0)])
 @pytest.mark.parametrize("shape", [(12, 12), (13, 9), (9, 12), (16, 7)])
 def test_mirrored_map_is_its_tile(shape: tuple[int, int], pixel: float, cut: float):
@@ -266,7 +266,7 @@ def test_mirrored_map_is_its_tile(shape: tuple[int, int], pixel: float, cut: flo
 
 
 def test_symmetric_maps_are_recognised():
-    """Half of the domain is enough for a mirrored map that is even about its middle column."""
+    """Half the domain suffices for a mirrored map that is even about its middle column."""
     half = 1e-8 * np.random.default_rng(2).normal(size=(12, 6))
     for z, even in ((np.hstack([half, half[:, -2::-1]]), True), (np.hstack([half, half]), False)):
         case = (
@@ -288,7 +288,7 @@ print(json.dumps([done.returncode, use.ru_maxrss, use.ru_utime]))
 
 
 def measured(ehl: str, folder: Path, pixels: int) -> tuple[float, float]:
-    """Largest memory [bytes] and time of the processor [s] of a run with a map, of one step."""
+    """Peak memory [bytes] and processor time [s] of a run with a map, for one step."""
     np.save(folder / f"{pixels}.npy", rough((pixels, pixels)))
     # 0.03 m: the grid resolves all waves
     (folder / "case.nml").write_text(
@@ -351,5 +351,5 @@ def test_memory_and_work_of_large_maps(ehl: str, tmp_path: Path):
     began = time.process_time()
     scipy.fft.rfft2(z)
     spectrum = time.process_time() - began
-    # 7 here, with reading; a sum over the waves of a column for each row of the grid takes 33
+    # 7 here, including reading; summing the waves of a column for each row of the grid takes 33
     assert large[1] - small[1] <= 15.0 * spectrum

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A rough run that starts where the prediction ends: the same mean in fewer steps."""
+"""A rough run that starts from the predicted pressure: the same mean in fewer steps."""
 
 import json
 import math
@@ -56,13 +56,13 @@ def test_same_mean_in_fewer_steps(settings: dict[str, Any]):
     assert float(other.steps) <= 0.7 * float(front.steps)
     stop = float(front.mu_ratio_error_stop) + float(other.mu_ratio_error_stop)
     assert float(other.mu_ratio) == pytest.approx(float(front.mu_ratio), abs=stop)
-    # an error that states something
+    # an error that is not trivial
     assert stop < 0.01 * float(front.mu_ratio)
 
 
 @pytest.mark.long
 def test_a_pair_on_an_ellipse():
-    """Each surface has its own front and speed; the mean takes whole periods of both."""
+    """Each surface has its own front and speed; the mean is over whole periods of both."""
     pair = WAVE | WIDE | SECOND | {"contact.slide_to_roll": 0.25, "second_surface.wavelength": 1.0}
     front, other = run(pair, "front"), run(pair)
     assert other.attrs["start"] == "prediction"
@@ -70,13 +70,13 @@ def test_a_pair_on_an_ellipse():
     stop = float(front.mu_ratio_error_stop) + float(other.mu_ratio_error_stop)
     assert float(other.mu_ratio) == pytest.approx(float(front.mu_ratio), abs=stop)
     assert stop < 1e-3
-    # the film of the first steps is near that of the mean
+    # the film of the first steps is near its mean
     first, rise = float(other.history_mu_ratio[0]), float(front.mu_ratio) - 1.0
     assert first - 1.0 == pytest.approx(rise, rel=0.5)
 
 
 def test_the_coarser_run_has_the_same_start():
-    """Its mean, and so the grid error, is that of the run behind a front."""
+    """Its mean, and thus the grid error, is that of the run behind a front."""
     wave = {"surface.kind": "harmonic", "surface.amplitude": 5e-3, "time.estimate_error": True}
     point = {"contact.moes_m": 200.0, "contact.moes_l": 10.0}
     front, other = run(point | wave, "front"), run(point | wave)
@@ -92,7 +92,7 @@ def test_the_coarser_run_has_the_same_start():
 def test_every_surface_lies_where_the_prediction_has_it(
     tile: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ):
-    """The field of the start, followed to the end of the run, is the simulated one: to 0.1 a."""
+    """The initial pressure, followed to the end of the run, is the simulated one: to 0.1 a."""
     given: list[Any] = []
 
     def keep(*arguments: Any) -> Any:
@@ -175,7 +175,7 @@ def test_failed_steps_restart_behind_a_front(tile: dict[str, Any]):
 
 @pytest.mark.parametrize("fault", [ValueError, ZeroDivisionError, errors.InternalError])
 def test_a_fault_of_the_package_is_no_warning(monkeypatch, fault: type[Exception]):
-    """What a case cannot help ends the run; what it can begins behind a front."""
+    """A fault of the package ends the run; after an error by the case it starts with a front."""
 
     def fails(*_: object) -> None:
         raise fault("wrong")

@@ -20,7 +20,7 @@ from pyehl.measured_response import measurement
 from pyehl.measured_response.folder import destination
 from pyehl.measured_response.superposition import SLOPE, WaveSet, superpose
 
-# Long waves and short ones in a thick film, where a coarse grid does
+# Long waves, and short ones in a thick film, which a coarse grid resolves
 TINY = (
     measurement.Tier("long", 2.0, 65, 2.0, 0.5),
     measurement.Tier("middle", 1.0, 257, 0.5, 0.25),
@@ -30,7 +30,7 @@ CASE = "&contact moes_m = 200.0 moes_l = 10.0 /\n&surface velocity_ratio = 1.05 
 
 @pytest.fixture
 def tiny(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
-    """Words of a command that takes seconds."""
+    """Command line of a `pyehl response` that takes seconds."""
     monkeypatch.setattr(measurement, "TIERS", TINY)
     monkeypatch.setattr("pyehl.commands.response.TIERS", TINY)
     monkeypatch.setattr("pyehl.measured_response.folder.TIERS", TINY)
@@ -61,17 +61,17 @@ def test_command(
     # the residual of the fit at this point, 0.018, and the error of the grid (film 1 % thin)
     assert max(float(row["shipped_difference_centre"]) for row in fine) < 0.03
     assert max(abs(float(row["pressure_ratio_centre"]) - 1.0) for row in fine) < 0.1
-    # a second time nothing is run, and the same comes out
+    # the second call runs nothing, and gives the same
     kept = {path.name: path.stat().st_mtime_ns for path in folder.glob("tier_*.npz")}
     before = (folder / "response.csv").read_text()
     assert cli.main(tiny) == 0
     assert {path.name: path.stat().st_mtime_ns for path in folder.glob("tier_*.npz")} == kept
     assert (folder / "response.csv").read_text() == before
-    # one that is lost is run again, to the same numbers
+    # a run that is lost is made again, with the same numbers
     (folder / "tier_long.npz").unlink()
     assert cli.main(tiny) == 0
     assert (folder / "response.csv").read_text() == before
-    # another case does not resume it, nor does another version
+    # the results are not used for another case or by another version
     capsys.readouterr()
     assert cli.main([*tiny, "--set", "surface.velocity_ratio=1.1"]) == 2
     assert "\n  velocity_ratio: there 1.05, here 1.1\n" in capsys.readouterr().err
@@ -83,7 +83,7 @@ def test_command(
 
 @pytest.mark.long
 def test_waves_on_an_ellipse(monkeypatch: pytest.MonkeyPatch):
-    """A wide contact of a thick film, as the circle above."""
+    """A wide contact with a thick film, as the circle above."""
     case = Case.from_text(CASE, ["contact.radius_ratio=0.5438"])
     monkeypatch.setattr("pyehl.measured_response.folder.TIERS", TINY)
     result = pyehl.response(case)
@@ -135,7 +135,7 @@ def test_an_interrupt_keeps_the_finished_tiers(tmp_path: Path):
 
 
 def test_failed_run_is_named(tmp_path: Path):
-    """At this load the inlet is finer than the grid."""
+    """At this load the grid does not resolve the inlet."""
     case = Case.from_text("&contact moes_m = 20000.0 moes_l = 20.0 /\n")
     tier = measurement.Tier("long", 4.0, 17, 4.0, 2.0)
     with pytest.raises(EhlError, match="tier 'long': the run ended too early"):
@@ -183,7 +183,7 @@ def test_small_waves_are_linear():
 
 @pytest.mark.long
 def test_second_solver_has_the_same_response():
-    """One wave, by a solver that has nothing in common with this one but the equations."""
+    """One wave, by a solver that shares only the equations with this one."""
     m, ell, points, wavelength = 500.0, 5.0, 65, 1.0
     settings = Case.from_text(
         f"&contact moes_m = {m} moes_l = {ell} /\n&lubricant roelands_z = {Z} /\n"
@@ -212,5 +212,5 @@ def test_second_solver_has_the_same_response():
     t = -(cosine + 1j * sine) / amplitude
     at = int(np.argmin(np.abs(result.x)))
     assert 0.2 < abs(t) < 0.8
-    # what differs is the algebraic error of both
+    # the difference is the algebraic error of both
     assert abs(result.response[0, at] - t) < 5e-4

@@ -20,7 +20,7 @@ REST = WAVE | {"surface.velocity_ratio": 0.0}
 
 @pytest.mark.long
 def test_stationary_wave_is_the_limit_of_slow_motion(solve):
-    """The mean over the positions of a wave at rest is that of a wave that creeps through."""
+    """The mean over the positions of a wave at rest is that of a very slow wave."""
     positions = np.arange(8) / 8.0 * WAVELENGTH
     ratios = []
     for position in positions:
@@ -32,7 +32,7 @@ def test_stationary_wave_is_the_limit_of_slow_motion(solve):
     slow = solve(POINT, POINTS, WAVE | {"surface.velocity_ratio": 0.02})
     assert slow.converged
     # 2.117 and 2.118: eight positions integrate the wave and its first harmonics exactly, and at
-    # 0.02 the film still lags by a fiftieth of what it does at 1
+    # 0.02 the lag of the film is still a fiftieth of that at 1
     assert np.mean(ratios) == pytest.approx(slow["mu_ratio"], rel=2e-3)
 
 
@@ -45,7 +45,7 @@ def test_vanishing_roughness_is_smooth(solve):
 
 
 def test_stationary_wave_has_its_origin_at_x_start(solve):
-    """The pattern is everywhere, no front: A cos(2 pi (X - x_start)/l) cos(2 pi Y/l)."""
+    """The wave covers the domain without a front: A cos(2 pi (X - x_start)/l) cos(2 pi Y/l)."""
     done = solve(POINT, POINTS, REST | {"surface.x_start": 0.1}, fields=True)
     x, y = done.field("X")[:, None], done.field("Y")
     k = 2.0 * np.pi / WAVELENGTH
@@ -57,18 +57,18 @@ def test_stationary_wave_has_its_origin_at_x_start(solve):
 
 
 def test_error_by_the_coarser_grid(solve):
-    """The difference to the next coarser grid, with one amplitude."""
+    """The difference from the next coarser grid, with the same amplitude."""
     wave = REST | {"time.estimate_error": True, "surface.amplitude_over_film": 0.2}
     wave.pop("surface.amplitude")
     coarse, fine = (solve(POINT, points, wave) for points in (129, 257))
     assert coarse.converged
     assert fine.converged
-    # the film that the amplitude is a share of is extrapolated, on any grid
+    # the film to which the amplitude is relative is extrapolated, on any grid
     assert coarse["amplitude"] == pytest.approx(fine["amplitude"], rel=2e-3)
     again = REST | {"surface.amplitude": fine["amplitude"]}
     same = solve(POINT, 129, again)
     difference = abs(fine["mu_ratio"] - same["mu_ratio"])
-    # the same problem from another start: to the algebraic errors
+    # the same problem from another initial state: equal to the algebraic errors
     tolerance = 2.0 * fine["mu_ratio_error_stop"]
     assert fine["mu_ratio_error_grid"] == pytest.approx(difference, abs=tolerance)
     assert fine["mu_ratio_error"] >= fine["mu_ratio_error_grid"] > 0.0
@@ -108,12 +108,12 @@ def test_map_at_rest_equals_wave_at_rest(solve, tmp_path):
         },
     )
     assert as_map.converged
-    # 32 pixels a wave: the tile is interpolated to 1e-9 of the amplitude
+    # 32 pixels per wave: the tile is interpolated to 1e-9 of the amplitude
     assert as_map["mu_ratio"] == pytest.approx(as_wave["mu_ratio"], rel=1e-6)
 
 
 def test_roughness_higher_than_the_film_is_added_in_parts(solve):
-    """Waves that would pierce the film at once grow in parts; what does not converge states so."""
+    """Waves that would pierce the film are added in steps; failure to converge is reported."""
     done = solve(POINT, POINTS, REST | {"surface.amplitude": 0.0712})
     assert done.converged
     assert done["rough_parts"] > 1
@@ -130,7 +130,7 @@ def test_too_slow_is_refused(drive, tmp_path, driver: str):
     assert "surface.velocity_ratio = 1e-5" in done.stderr
     assert "time steps" in done.stderr
     assert not (tmp_path / "out").exists()
-    # what is named will do: the plan is made, and the run ends after the steps that were asked for
+    # the suggestion works: the plan is made, and the run ends after the requested steps
     least = float(done.stderr.partition("at least ")[2].split()[0])
     assert 1e-5 < least < 1e-2
     options = ["--set", f"surface.velocity_ratio={least}", "--set", "surface.amplitude=0.001"]

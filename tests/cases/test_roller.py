@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rollers of finite length: against line, ellipse and dry contact, misaligned, what is refused."""
+"""Rollers of finite length: against line, ellipse and dry contact, misaligned, refusals."""
 
 import math
 import subprocess
@@ -58,7 +58,7 @@ def test_crown_shorter_than_the_roller_is_an_ellipse():
         limits = [float(one[name]) * scale for one, scale in zip((ds, wide), scales, strict=True)]
         assert limits[0] == pytest.approx(limits[1], rel=3e-3)
     assert float(ds.p_max_Pa) == pytest.approx(float(wide.p_max_Pa), rel=3e-3)
-    # nothing ends under load: the errors are known
+    # the profile does not end within the contact: the errors are known
     assert math.isfinite(float(ds.H_min_error))
 
 
@@ -90,7 +90,7 @@ def test_low_speed_is_the_dry_contact(dry, points, misalignment):
 
 
 def test_difference_vanishes_with_the_speed(dry):
-    """As recorded: it falls with about the square root of the speed, on both grids."""
+    """The recorded difference falls with about the square root of the speed, on both grids."""
     rows = dry.read()
     for points in (257, 513):
         mine = [row for row in rows if row["points"] == points]
@@ -120,14 +120,14 @@ def test_profiles_of_both_bodies_are_added(ehl, tmp_path):
     both = roller(65, **parts, profile_2="logarithmic", log_amplitude_2=2e-6)
     result = pyehl.solve(both)
     np.testing.assert_allclose(result.P.values, whole.P.values, atol=1e-9)
-    # body 2 alone, by the program too
+    # body 2 alone, also by the program
     two = roller(65, profile_2="logarithmic", log_amplitude_2=3e-6)
     np.testing.assert_array_equal(pyehl.solve(two).P.values, whole.P.values)
     case = tmp_path / "case.nml"
     case.write_text(two.text)
     subprocess.run([ehl, case, "-q", "-o", tmp_path / "out"], check=True)
     np.testing.assert_array_equal(pyehl.load(tmp_path / "out").P.values, whole.P.values)
-    # a crown on a chamfered ring is neither
+    # a crown against a chamfered ring has a larger gap than either alone
     mixed = {"profile": "crown", "crown_radius": 2.0, "profile_2": "chamfer"}
     mixed |= {"chamfer_length_2": 1e-3, "chamfer_drop_2": 5e-6}
     crown, chamfer = dict(list(mixed.items())[:2]), {"profile": "chamfer"}
@@ -149,7 +149,7 @@ def test_ends_under_load_have_no_error():
 
 @pytest.mark.parametrize(("amplitude", "near_ends"), [(4e-6, False), (1e-6, True)])
 def test_ends_beside_a_longer_domain(tmp_path, amplitude, near_ends):
-    """The roller within a domain 1.2 times as long, where a gap of 0.1 mm is open beyond its ends.
+    """The roller within a domain 1.2 times as long, with an open gap of 0.1 mm beyond its ends.
 
     P = 0 and the conductance at its ends are then those of the oil there.
     """
@@ -161,7 +161,7 @@ def test_ends_beside_a_longer_domain(tmp_path, amplitude, near_ends):
     table = tmp_path / "profile.csv"
     rows = zip(places, [1e-4, 1e-4, *drop, 1e-4, 1e-4], strict=True)
     table.write_text("\n".join(f"{a:.9e}, {b:.9e}" for a, b in rows))
-    # the same mesh and inlet in metres: b goes with the root of the mean load per length
+    # the same mesh and inlet in metres: b follows the root of the mean load per length
     wider = math.sqrt(1.2)
     ends = {"x_inlet": float(short.X[0]) * wider, "x_outlet": float(short.X[-1]) * wider}
     keys = {"profile": "file", "profile_file": str(table), "length": 0.012, "radius": 0.005}
@@ -185,7 +185,7 @@ def test_table_of_a_profile(tmp_path):
     crown = pyehl.solve(roller(129, profile="crown", crown_radius=1.0))
     for name in ("H_c", "H_min", "P_max"):
         assert float(result[name]) == pytest.approx(float(crown[name]), rel=1e-4)
-    # a resolved case holds the table
+    # a resolved case contains the table
     text = result.attrs["case"]
     table.unlink()
     again = tmp_path / "again.nml"
@@ -274,7 +274,7 @@ def test_commands_that_do_not_take_rollers():
     for command in (pyehl.film, pyehl.response):
         with pytest.raises(pyehl.EhlError, match="roller"):
             command(case)
-    # a prediction is of a rough surface
+    # a prediction is for a rough surface
     with pytest.raises(pyehl.InputError, match="rough surface"):
         pyehl.predict(case)
     with pytest.raises(pyehl.InputError, match="roller"):

@@ -12,9 +12,9 @@ from reference import SMOOTH, SmoothRow
 
 from pyehl.theory.film import nijenbanning_venner_moes
 
-# Independent programs agree with one another within this on the same grid
+# Independent programs agree with one another to this tolerance on the same grid
 AGREEMENT = 2e-3
-# Algebraic error a hundred times below the default, for what compares discretisations
+# Algebraic error a hundred times below the default, to compare discretisations
 TIGHT = {"solver.accuracy": 1e-3, "solver.max_cycles": 60}
 ROWS = [
     pytest.param(row, k, id=f"M{row.moes_m:g}-L{row.moes_l:g}-z{row.roelands_z:g}-{points}")
@@ -34,10 +34,10 @@ def run(solve, row: SmoothRow, points: int) -> Any:
 
 
 def contradiction(row: SmoothRow) -> float:
-    """How far H_min of a row is from what rows of the same contact with another z imply.
+    """Deviation of H_min of a row from the value that rows with another z imply.
 
-    z acts on the inlet, hence on both films alike: H_min goes with H_c. The rows at M = 1000,
-    L = 10 break that by 0.25 %: from z = 0.68 to 0.6684 H_c falls by 0.13 % and H_min rises.
+    z acts on the inlet and so on both films: H_min is proportional to H_c. The rows at M = 1000, L
+    = 10 violate that by 0.25 %: from z = 0.68 to 0.6684 H_c falls by 0.13 % and H_min rises.
     """
     worst = 0.0
     for other in SMOOTH:
@@ -56,7 +56,7 @@ def test_reference_rows(solve, row: SmoothRow, k: int):
     assert done.converged
     assert done["H_c"] == pytest.approx(row.h_c[k], rel=AGREEMENT)
     assert abs(done["load_error"]) <= 1e-6
-    # The rows at z = 0.68 and that at M = 20 stand alone; see contradiction() for the other
+    # The rows at z = 0.68 and at M = 20 have no counterpart; see contradiction() for the other
     exact = row.roelands_z == 0.68 or row.moes_m != 1000.0
     tolerance = AGREEMENT if exact else AGREEMENT + contradiction(row)
     assert done["H_min"] == pytest.approx(row.h_min[k], rel=tolerance)
@@ -105,7 +105,7 @@ def test_order_is_two(solve, point: tuple[float, float]):
 
 @pytest.mark.parametrize("point", [(200.0, 10.0), (1000.0, 10.0)])
 def test_mlmi_and_fft_agree(solve, point: tuple[float, float]):
-    # The summation error of mlmi is to stay a small part of the discretisation error, 0.2 to 1 %
+    # The summation error of mlmi must be a small part of the discretisation error, 0.2 to 1 %
     mlmi, fft = (solve(point, 513, {"solver.deflection": name}) for name in ("mlmi", "fft"))
     assert mlmi.converged
     assert fft.converged
@@ -114,10 +114,10 @@ def test_mlmi_and_fft_agree(solve, point: tuple[float, float]):
 
 
 def test_hertz_limit(solve):
-    """P tends to the Hertz ellipse and the shape to the Hertz deflection as the film gets thin.
+    """P tends to the Hertz ellipse, and the shape to the Hertz deflection, as the film gets thin.
 
-    Only the film separates both problems: a gap of H_c, uneven by some tenths of itself, beside a
-    deflection of 1. So the differences are shares of H_c, and fall with it.
+    Only the film separates the two problems: a gap of H_c, uneven by some tenths of itself,
+    compared with a deflection of 1. So the differences are proportional to H_c.
     """
     before = math.inf
     for moes_m in (1000.0, 2000.0, 4000.0):
@@ -131,12 +131,12 @@ def test_hertz_limit(solve):
         assert profile < 0.5 * h_c
         assert profile < before / 1.5
         before = profile
-        # H - X^2/2 - Y^2/2 = H00 + deflection; its value at the centre takes H00 away
+        # H - X^2/2 - Y^2/2 = H00 + deflection; subtracting its value at the centre removes H00
         shape = film - 0.5 * x**2 - 0.5 * y**2
         centre = np.argmin(np.abs(x)), np.argmin(np.abs(y))
         change = shape - shape[centre] - (reference.hertz_deflection(x, y) - 1.0)
         assert np.abs(change).max() < h_c
-        # Far away the load counts and not how it is spread: centre against the corners
+        # Far away only the load counts, not its distribution: centre against corners
         assert np.abs(change[[0, 0, -1, -1], [0, -1, 0, -1]]).max() < 0.1 * h_c
 
 
@@ -154,8 +154,8 @@ def test_default_settings_converge(solve, moes_m: float, moes_l: float):
     assert abs(done["load_error"]) <= 1e-6
     assert 0.0 < done["H_min"] < done["H_c"] < done["H_c_extrapolated"]
     if moes_m >= 500.0:
-        # The formula, made for incompressible fluids, was found good to 0.8 % there; 1.1 % leaves
-        # room for the extrapolated value (0.1 %) and the points between those of that comparison
+        # The accuracy of the formula, for incompressible fluids, was 0.8 % there; 1.1 % includes
+        # the error of the extrapolated value (0.1 %) and points between those of that comparison
         pressure = done["hertz_pressure_Pa"]
         density = (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
         formula = nijenbanning_venner_moes(moes_m, moes_l) / density
@@ -177,7 +177,7 @@ ESTIMATED = [
 
 
 def limits(solve, point: tuple[float, float]) -> dict[str, float]:
-    """H_c and H_min on ever finer grids, extrapolated from 513 and 1025 points a side."""
+    """H_c and H_min on ever finer grids, extrapolated from 513 and 1025 points per side."""
     coarse, fine = (solve(point, points) for points in (513, 1025))
     assert coarse.converged
     assert fine.converged
@@ -196,7 +196,7 @@ def test_error_estimates(solve):
         extrapolated = solve(point, 513)["H_c_extrapolated"]
         assert extrapolated == pytest.approx(limit["H_c"], rel=1e-3), point
     assert np.mean(np.array(ratios) <= 1.0) >= 0.95
-    # Nor is it safe by being far too large
+    # The error is not far too large either
     assert np.median(ratios) > 0.35
 
 
@@ -215,7 +215,7 @@ def test_target_error(solve, point: tuple[float, float], target: float):
     assert done["H_c_error_grid"] <= target * done["H_c"]
     limit = limits(solve, point)["H_c"]
     assert abs(done["H_c"] / limit - 1.0) <= 2.0 * target
-    # and no finer than needed: the next coarser grid would have missed the target
+    # and the grid is no finer than needed: the next coarser one would miss the target
     coarser = solve(point, (done["points"] + 1) // 2)
     assert coarser["H_c_error_grid"] > target * coarser["H_c"]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Soft bodies and water: formulas of their regimes, keys, where the theory ends."""
+"""Soft bodies and water: formulas of their regimes, keys, limits of the theory."""
 
 import math
 from pathlib import Path
@@ -27,7 +27,7 @@ def formulas(point: OperatingPoint) -> dict[str, film.FilmEstimate]:
 @pytest.mark.parametrize("load_number", [1e-4, 1e-3, 1e-2])
 @pytest.mark.parametrize("ellipticity", [1.0, 3.0])
 def test_soft_formula_is_that_of_textbooks(load_number: float, ellipticity: float):
-    """In their form for regimes, of other constants."""
+    """The formula in the form of textbooks, which has other constants."""
     speed = 1e-8
     elasticity = load_number ** (8.0 / 3.0) / speed**2
     shape = 1.0 - 0.85 * math.exp(-0.31 * ellipticity)
@@ -38,7 +38,7 @@ def test_soft_formula_is_that_of_textbooks(load_number: float, ellipticity: floa
 
 @pytest.mark.parametrize("moes_m", [0.2, 1.0, 2.0])
 def test_rigid_bodies(moes_m):
-    """Brewe, Hamrock & Taylor: as much below the solver as the notes say."""
+    """Brewe, Hamrock & Taylor: as much below the solver as the documents state."""
     ds = solved(moes(moes_m, 0.0, 129))
     point = OperatingPoint.from_moes(moes_m, 0.0)
     first = film.estimates(point, Lubricant())[0]
@@ -57,7 +57,7 @@ def test_rigid_bodies(moes_m):
 def test_soft_bodies(moes_m):
     ds = solved(moes(moes_m, 0.0, 513))
     unit = OperatingPoint.from_moes(moes_m, 0.0)
-    # U = 1e-8 as between rubber and glass; L = 0 leaves it free
+    # U = 1e-8 as between rubber and glass; with L = 0 the film does not depend on it
     speed, load_number = 1e-8, moes_m * 2e-8**0.75
     scale = (1.5 * load_number) ** (-2.0 / 3.0)
     h_c = film.de_vicente(speed, load_number) * scale
@@ -89,7 +89,7 @@ def test_soft_ellipses(radius_ratio, moes_m, off):
     [(2000.0, 0.0, 513), (2000.0, 0.5, 513), (5000.0, 0.1, 513), (5000.0, 1.0, 513)],
 )
 def test_soft_contacts_converge(moes_m, moes_l, points):
-    """With the relaxation of hard ones the changes go round in circles."""
+    """With the relaxation of hard contacts the iteration would enter a cycle."""
     with pyehl.Solver(pyehl.Case.from_text("", moes(moes_m, moes_l, points))) as solver:
         assert solver.run()
         assert solver.summary["status"] == "converged"
@@ -97,7 +97,7 @@ def test_soft_contacts_converge(moes_m, moes_l, points):
 
 @pytest.mark.parametrize(("moes_m", "ratio"), [(655.0, 1.0), (1500.0, 1.0), (1800.0, 1.4)])
 def test_errors_of_thin_films_on_a_single_grid(moes_m, ratio):
-    """No coarser grid has a solution: the error is what the grid misses of the inlet."""
+    """No coarser grid has a solution: the error is that of an unresolved inlet."""
     options = {"contact.radius_ratio": 1.0 / ratio}
     coarse, fine = (solved(moes(moes_m, 0.0, points), options) for points in (129, 513))
     assert coarse.attrs["error_estimate"] == "a priori"
@@ -125,7 +125,7 @@ def test_alpha_of_0_is_an_l_of_0(root: Path):
 
 
 def test_water(root: Path):
-    """Low alpha under Roelands; the formula for all regimes is right to 5 %."""
+    """Low alpha under Roelands; the formula for all regimes is accurate to 5 %."""
     file = root / "cases/water.nml"
     ds = pyehl.solve(file, {"grid.points": 257}, check=False)
     sheet = pyehl.film(file).summary

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inlets that are short of oil: formulas, conservation, limits, passages, what is refused."""
+"""Inlets short of oil: formulas, conservation, limits, passages, refusals."""
 
 import json
 import re
@@ -48,7 +48,7 @@ def test_layer_of_a_point_contact(flooded, layer):
 @pytest.mark.parametrize("law", ["eyring", "carreau"])
 @pytest.mark.parametrize("radius_y", [0.01, 0.03])
 def test_oil_layer_with_a_shear_thinning_flow(law, radius_y):
-    """A stress that is never reached leaves the film of the Newtonian flow."""
+    """A stress that is never reached leaves the film of the Newtonian flow unchanged."""
     contact = {k: v for k, v in SI.items() if k != "radius"}
     contact |= {"radius_x": 0.01, "radius_y": radius_y, "slide_to_roll": 0.3}
     case = pyehl.Case(contact=contact, inlet={"film": 1e-7}, grid={"points": 65})
@@ -77,7 +77,7 @@ def test_all_oil_passes_a_line_contact(layer):
         assert float(result.H_c) == pytest.approx(float(flooded.H_c), rel=1e-4)
         return
     assert float(result.oil_out) == pytest.approx(layer, rel=1e-6)
-    # flat pressures: no flow by pressure in the middle
+    # flat pressure: no flow by pressure in the middle
     assert float(result.H_c) * DENSITY == pytest.approx(layer, rel=0.01)
 
 
@@ -104,7 +104,7 @@ def test_passages():
     films = [np.asarray(result.history_H_c)[of == k][-1] for k in (1, 2, 3)]
     layers = [np.asarray(result.history_oil_layer)[of == k][-1] for k in (1, 2, 3)]
     assert films[0] > films[1] > films[2]
-    # what arrives is what the film before it had
+    # the arriving oil is the film of the position before it
     assert layers[1:] == pytest.approx([DENSITY * film for film in films[:2]], rel=0.02)
     once = solve(film_hertz=0.1, passages=3, replenishment=1.0)
     assert int(once.passages) == 2
@@ -174,7 +174,7 @@ def test_formulas_of_machines_refuse_a_starved_inlet(root: Path, tmp_path: Path,
 def test_stations_of_a_starved_gear_are_solved(root: Path, tmp_path: Path):
     few = {"spur_gear.stations": 5, "inlet.film": 5e-8}
     result = pyehl.gear(without_roughness(root, "fzg_c", tmp_path), few, run="solve", jobs=1)
-    # the layer, less what is compressed
+    # the layer, thinned by compression
     assert set(result.table["status"]) == {"converged"}
     assert result.table["h_c_m"].between(3.9e-8, 4.2e-8).all()
 
@@ -185,7 +185,7 @@ def test_waves_are_not_measured_in_a_starved_contact(root: Path):
 
 
 def test_lines_that_are_nearly_flooded():
-    """A layer has the film of the position that it fills the gap from, up to the flooded one."""
+    """A layer gives the film of the position at which it fills the gap, up to the flooded film."""
     flooded = pyehl.solve(pyehl.Case(contact=LINE))
     for position, share in ((1.2, 0.646), (1.5, 0.878), (2.0, 0.966), (2.5, 0.986)):
         place = pyehl.solve(pyehl.Case(contact=LINE, inlet={"position_hertz": position}))
@@ -195,7 +195,7 @@ def test_lines_that_are_nearly_flooded():
         assert float(layer.oil_out) == pytest.approx(float(layer.oil_in), rel=1e-6)
         if position > 1.5:
             continue
-        # farther away the film hardly depends on where it begins
+        # farther away the film hardly depends on this position
         begins = float(layer.X[np.flatnonzero(layer.P.values.ravel() > 0.0)[0]])
         assert begins == pytest.approx(-position, abs=0.05)
 
@@ -203,7 +203,7 @@ def test_lines_that_are_nearly_flooded():
 @pytest.mark.parametrize("points", [129, 257])
 @pytest.mark.parametrize("load", [2e4, 1.8e5, 5e5])
 def test_layers_just_below_the_flooded_film_converge(load, points):
-    """The meniscus wanders there: each layer has its film, and oil is conserved."""
+    """The meniscus shifts there: each layer has its film, and oil is conserved."""
     contact = {"shape": "line", "radius": 0.01, "mean_velocity": 0.4622, "load_per_length": load}
     case = pyehl.Case(contact=contact, grid={"points": points, "border": "zero"})
     flooded, thin = pyehl.solve(case), pyehl.solve(case, {"inlet.film": 5e-8})
@@ -212,12 +212,12 @@ def test_layers_just_below_the_flooded_film_converge(load, points):
         layer = share * density * float(flooded.h_c_m)
         result = pyehl.solve(case, {"inlet.film": layer})
         assert abs(float(result.oil_imbalance)) <= 1e-6
-        # the border of the domain costs some of the last percent
+        # the border of the domain reduces the film by some tenths of a per cent
         assert float(result.h_c_m) / float(flooded.h_c_m) == pytest.approx(share, abs=0.006)
 
 
 def test_thick_films_that_begin_near_the_contact():
-    """Less than a flooded film of 31: the start does not take it, and a thinning flow converges."""
+    """The flooded film of 31 is too thick to start from; a shear-thinning flow converges, too."""
     contact = {"radius": 0.004453, "load": 1.028, "mean_velocity": 8.842, "slide_to_roll": 0.434}
     law = {"lubricant.shear_law": "eyring", "lubricant.eyring_stress": 3.63e6}
     case = pyehl.Case(contact=contact, lubricant={"viscosity": 0.08571}, grid={"points": 65})
@@ -225,14 +225,14 @@ def test_thick_films_that_begin_near_the_contact():
         float(pyehl.solve(case, law, {"inlet.position_hertz": at}).H_c) for at in (1.1, 1.5, 3)
     ]
     assert films == sorted(films)
-    # they have to fit in the gap where the oil begins, x^2/2 and the film
+    # they have to fit into the gap where the oil begins, x^2/2 and the film
     assert films[0] < 3.0 * 1.1**2 / 2.0
     newtonian = pyehl.solve(case, {"inlet.position_hertz": 1.1})
     assert films[0] < float(newtonian.H_c) == pytest.approx(films[0], rel=0.05)
 
 
 def test_a_layer_without_a_solution_names_a_remedy():
-    """A wide contact at M = 17 000, where finer grids do not help."""
+    """A wide contact at M = 17 000, for which finer grids do not help."""
     case = pyehl.Case(
         contact={"load": 2444.0, "mean_velocity": 0.7, "radius_x": 0.01196, "radius_y": 0.1784},
         lubricant={"viscosity": 0.01409, "shear_law": "eyring", "eyring_stress": 8.323e6},

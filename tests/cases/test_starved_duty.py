@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A layer of oil that arrives at a contact under a duty: what flows in flows out or stays."""
+"""A layer of oil that arrives at a contact under a duty: inflow leaves the contact or stays."""
 
 import subprocess
 from pathlib import Path
@@ -12,7 +12,7 @@ from test_duty import BOTH_SIDES, LINE, LOAD, RADIUS, SPEED, UNIT, WIDTH, L, M
 import pyehl
 
 LAYER = 1.18e-7
-"""Of the line: h_c is 0.57 of the flooded one [m]."""
+"""For the line: h_c is 0.57 of the flooded one [m]."""
 SCALE = WIDTH**2 / RADIUS
 RATIOS = {"load": LOAD, "mean_velocity": SPEED, "radius_x": RADIUS}
 POINT = {
@@ -53,9 +53,9 @@ def wave(length, amplitude=0.4):
 
 
 def sums(data):
-    """Times from the first step on; by then in, out, at the sides, gained [a^4/R, a line: a^3/R].
+    """Times from the first step on; inflow, outflow, side flow, gain [a^4/R, a line: a^3/R].
 
-    BDF2 in the steps of the run sums what flows, so that nothing but what steps lose is left.
+    BDF2 with the steps of the run integrates the flows, so that only losses of the steps remain.
     """
     time, enters, leaves, sides, content, gain, begun = history(
         data, "T", "oil_in", "oil_out", "oil_at_sides", "oil_content", "oil_gain", "cycles"
@@ -70,23 +70,23 @@ def sums(data):
             ratio = step / steps[k - 1]
         past = (1.0 + ratio) * passed[k + 1] - ratio**2 / (1.0 + ratio) * passed[k]
         passed[k + 2] = (step * flows[:, k] + past) * (1.0 + ratio) / (1.0 + 2.0 * ratio)
-    # the steady contact in the discretisation of the steps, which is in no row
+    # the steady contact in the discretisation of the steps, which is not in the history
     before = content[first] - gain[first] * steps[0] / 1.5
     return np.column_stack([time[first:], passed[2:], content[first:] - before])
 
 
 def lost(data):
-    """What flowed in less what flowed out and what is gained, over all that flowed in."""
+    """Inflow less outflow and gain, over all inflow."""
     _, enters, leaves, sides, gained = sums(data).T
     return (enters - leaves - sides - gained) / enters[-1]
 
 
 def balance(data):
-    """The same at the end of the duty by trapezia, which do not depend on the scheme."""
+    """The same at the end of the duty by the trapezoidal rule, independent of the scheme."""
     time, enters, leaves, sides, content = history(
         data, "T", "oil_in", "oil_out", "oil_at_sides", "oil_content"
     )
-    # behind the first step: before it the content is that of the steady contact
+    # after the first step: before it the content is that of the steady contact
     moves = slice(int((data.history_cycles.values > 0).argmax()), None)
     net = np.trapezoid((enters - leaves - sides)[moves], time[moves])
     return (net - np.diff(content[moves][[0, -1]])[0]) / np.trapezoid(enters[moves], time[moves])
@@ -112,7 +112,7 @@ def test_no_oil_is_lost_on_a_line(name, film):
     data = pyehl.solve(case)
     assert np.abs(data.history_oil_imbalance).max() <= 1e-6
     assert np.abs(lost(data)).max() <= 1e-6
-    # and up to the error of the steps in time
+    # and to the error of the steps in time
     assert abs(balance(data)) < 5e-4
     layer = data.history_oil_layer.values * SCALE
     ends = duty.get("inlet_film", [1.0, 1.0])
@@ -122,7 +122,7 @@ def test_no_oil_is_lost_on_a_line(name, film):
 
 
 def test_the_balance_by_trapezia_is_of_second_order():
-    """Half the step leaves less than a third of it."""
+    """Half the step gives less than a third of the difference."""
     time, values = wave(8.0)
     errors = [
         abs(balance(pyehl.solve(line(time, mean_velocity=values, interpolation="cubic",
@@ -143,7 +143,7 @@ def test_the_balance_by_trapezia_is_of_second_order():
     ids=["load", "layer", "speed"],
 )
 def test_against_newton(duty):
-    """Films within 0.4 % of an independent solver in the same steps: at most 0.31 % apart."""
+    """Films within 0.4 % of an independent solver with the same steps; 0.31 % at most here."""
     data = pyehl.solve(line([0.0, 0.5, 1.0, 6.5], **duty))
     time, h_c, h_min, speed, load, layer = history(
         data, "T", "H_c", "H_min", "speed", "load", "oil_layer"
@@ -167,7 +167,7 @@ def test_a_constant_duty_is_the_steady_contact_in_bits():
 
 
 def test_the_first_step_is_within_the_stated_error():
-    """Steps have another discretisation than the steady contact: what that changes is stated."""
+    """The time scheme and the steady contact are discretised differently; that change is stated."""
     data = point([0.0, 0.001, 0.002], mean_velocity=[1.0, 1.0, 1.000001])
     h_c, error = history(data, "H_c", "c_step_error")
     jump = abs(h_c[1] / h_c[0] - 1.0)
@@ -178,7 +178,7 @@ def test_the_first_step_is_within_the_stated_error():
 
 
 def test_a_slow_duty_is_a_sequence_of_steady_contacts():
-    """The deviation falls with the rate, at three of them."""
+    """The deviation falls with the rate, at three rates."""
     film = float(pyehl.solve(line(film=1.1 * LAYER)).h_c_m)
     away = []
     for length in (10.0, 20.0, 40.0):
@@ -191,10 +191,10 @@ def test_a_slow_duty_is_a_sequence_of_steady_contacts():
 
 
 def test_a_decreasing_layer_ends_in_its_steady_contact():
-    """The film stays until what was there has passed, and then is that of the new layer."""
+    """The film is constant until the old layer has passed, then it is that of the new layer."""
     data = pyehl.solve(line([0.0, 0.5, 1.0, 10.0], inlet_film=[1.0, 1.0, 0.5, 0.5]))
     time, h_c = history(data, "T", "H_c")
-    # the layer comes from X = -4, the film begins at about X = -1.3
+    # the layer comes from X = -4, the full film begins at about X = -1.3
     assert np.abs(h_c[time < 3.0] / h_c[0] - 1.0).max() < 2e-3
     assert h_c[-1] == pytest.approx(float(pyehl.solve(line(film=0.5 * LAYER)).H_c), rel=1e-3)
 
@@ -209,7 +209,7 @@ def test_a_decreasing_layer_ends_in_its_steady_contact():
     ids=["speed", "load", "layer"],
 )
 def test_no_oil_is_lost_around_a_ball(duty):
-    """What flows around it counts; at the end the contact is the steady one of the last row."""
+    """Side flow is included; the final contact is the steady one of the last row."""
     data = point([0.0, 0.2, 0.5, 6.0], **duty)
     assert np.abs(data.history_oil_imbalance).max() <= 1e-6
     assert np.abs(lost(data)).max() <= 1e-6
@@ -229,7 +229,7 @@ def test_no_oil_is_lost_around_a_ball(duty):
 
 
 def test_a_resumed_run_makes_the_same_bits(tmp_path: Path):
-    """Also one that was kept before its first step."""
+    """Also a run whose state was kept before its first step."""
     case = line([0.0, 0.2, 0.4, 1.5], inlet_film=[1.0, 1.0, 0.5, 0.5])
     for number, step in enumerate((1, 9)):
         folder = tmp_path / str(number)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Oils that thin by shear, in the flow that makes the film (lubricant.flow)."""
+"""Oils with shear thinning in the flow that makes the film (lubricant.flow)."""
 
 import subprocess
 from pathlib import Path
@@ -20,7 +20,7 @@ TABLE1 = PAPER | {
     "lubricant.pressure_viscosity": 2.2e-8,
     "lubricant.shear_law": "eyring",
 }
-# An oil that thins early
+# An oil that thins at low shear rates
 CARREAU = PAPER | {
     "contact.load": 30.0,
     "contact.mean_velocity": 0.5,
@@ -53,12 +53,12 @@ def test_carreau_as_a_newton_solver(solve, srr, h_c, h_min):
     assert done["H_c_extrapolated"] * length == pytest.approx(h_c, rel=1e-3)
     assert done["H_min_extrapolated"] * length == pytest.approx(h_min, rel=2e-3)
     if srr:
-        # the other one leaves the cavity out, half a per cent here
+        # the other one omits the cavity, half a per cent here
         assert done["mu_smooth"] == pytest.approx(0.005821, rel=1e-2)
 
 
 def test_strong_thinning(solve):
-    """n = 0.5, where factors that lag the gradient of pressure diverge."""
+    """n = 0.5, where factors that lag the pressure gradient would diverge."""
     keys = CARREAU | {"lubricant.carreau_exponent": 0.5}
     rolling = solve(None, 65, keys | {"contact.slide_to_roll": 0.0})
     sliding = solve(None, 65, keys | {"contact.slide_to_roll": 1.0})
@@ -69,7 +69,7 @@ def test_strong_thinning(solve):
 
 @pytest.mark.parametrize("srr", [1.0, 1.4])
 def test_films_far_thinner_than_the_newtonian_one(solve, srr):
-    """n = 0.3: the film is a seventh of the Newtonian one, from which the solver cannot begin."""
+    """n = 0.3: the film is a seventh of the Newtonian one, from which the solver cannot start."""
     done = solve(
         None, 65, CARREAU | {"lubricant.carreau_exponent": 0.3, "contact.slide_to_roll": srr}
     )
@@ -80,7 +80,7 @@ def test_films_far_thinner_than_the_newtonian_one(solve, srr):
 
 
 def test_cached_factors_do_not_change_the_result(solve):
-    """A run that keeps its factors from cycle to cycle, to two ends."""
+    """A run that keeps its factors from cycle to cycle, at two values of solver.accuracy."""
     keys = CARREAU | {"lubricant.carreau_exponent": 0.5, "contact.slide_to_roll": 0.5}
     usual, strict = (solve(None, 65, keys | {"solver.accuracy": a}) for a in (0.1, 0.001))
     assert strict["cycles"] > usual["cycles"]
@@ -132,7 +132,7 @@ def test_steps_are_solved_well_below_the_grid_error(solve, keys):
 
 
 def test_short_waves_leak(solve):
-    """Where the oil thins less of a wave is flattened."""
+    """Where the oil thins, less of a wave is flattened."""
     left = {
         flow: solve(
             None,
@@ -153,7 +153,7 @@ def test_short_waves_leak(solve):
 
 
 def test_a_run_that_was_stopped_is_resumed_to_the_same_bits(ehl: str, tmp_path: Path):
-    """Factors and stress are made of film and pressure, so that a checkpoint needs none of them."""
+    """Factors and stress follow from film and pressure, so that a checkpoint needs none of them."""
     keys = CARREAU | WAVE | {"grid.points": 65, "contact.slide_to_roll": 0.3}
     (tmp_path / "case.nml").write_text(pyehl.Case.from_text("", keys).text)
 

@@ -30,7 +30,7 @@ def surfaces_of(
 
 
 def test_exchange_of_the_two_bodies(solve):
-    """Body 1 with one roughness and body 2 with the other, named in either order: the same bits."""
+    """The roughness of body 1 and of body 2, as either group: the same bits."""
     one = solve(POINT, POINTS, surfaces_of(WAVE, OTHER, slide_to_roll=0.5), fields=True)
     other = solve(
         POINT, POINTS, surfaces_of(OTHER, WAVE, slide_to_roll=0.5, rough_surface=2), fields=True
@@ -44,7 +44,7 @@ def test_exchange_of_the_two_bodies(solve):
 
 
 def test_one_smooth_body(solve):
-    """Roughness on body 2 is the same by either group."""
+    """Roughness on body 2 gives the same as either group."""
     one = solve(POINT, POINTS, surfaces_of({}, WAVE, slide_to_roll=0.5), fields=True)
     other = solve(
         POINT, POINTS, surfaces_of(WAVE, {}, slide_to_roll=0.5, rough_surface=2), fields=True
@@ -56,7 +56,7 @@ def test_one_smooth_body(solve):
 
 
 def test_two_surfaces_without_sliding_are_one(solve):
-    """Without sliding the two are one surface with the sum of the heights."""
+    """Without sliding the two act as one surface with the sum of the heights."""
     both = solve(
         POINT, POINTS, surfaces_of(WAVE, WAVE | {"amplitude": 3e-3}, slide_to_roll=0), fields=True
     )
@@ -72,7 +72,7 @@ def test_two_surfaces_without_sliding_are_one(solve):
 
 
 def test_at_rest_in_each_notation(solve):
-    """One rough surface at rest beside a smooth one on the move: the same bits however stated."""
+    """One rough surface at rest beside a smooth moving one: the same bits in each notation."""
     still = OTHER | {"velocity_ratio": 0.0}
     runs = [
         solve(POINT, POINTS, keys, fields=True)
@@ -105,7 +105,7 @@ def test_at_rest_in_each_notation(solve):
 )
 @pytest.mark.parametrize("rough", [WAVE, DENT], ids=["wave", "dent"])
 def test_no_height_is_smooth(solve, rough, flat):
-    """A second surface without height costs nothing and changes no bit."""
+    """A second surface of zero height costs nothing and changes no bit."""
     steps = {"time.steps": 12}
     alone = solve(POINT, POINTS, surfaces_of(rough, {}, slide_to_roll=0.5) | steps, fields=True)
     beside = solve(POINT, POINTS, surfaces_of(rough, flat, slide_to_roll=0.5) | steps, fields=True)
@@ -116,25 +116,25 @@ def test_no_height_is_smooth(solve, rough, flat):
 
 
 def test_one_body_at_rest(solve):
-    """At SRR = 2 body 2 stands: with next to nothing on body 1 this is the steady contact."""
+    """At SRR = 2 body 2 is at rest: with almost no roughness on body 1 the contact is steady."""
     faint = WAVE | {"amplitude": 1e-14}
     moving = solve(POINT, POINTS, surfaces_of(faint, OTHER, slide_to_roll=2), fields=True)
     steady = solve(POINT, POINTS, surfaces_of({}, OTHER, slide_to_roll=2), fields=True)
     assert moving.converged
     assert steady.converged
     assert moving.field("RR") == pytest.approx(steady.field("RR"), abs=2e-14)
-    # as exactly as time steps and cycles are solved: 3e-6
+    # to the accuracy of time steps and cycles: 3e-6
     assert moving["mu_ratio"] == pytest.approx(steady["mu_ratio"], abs=2e-5)
     assert moving.field("H") == pytest.approx(steady.field("H"), abs=2e-5)
     assert moving["mu_ratio_max"] - moving["mu_ratio_min"] < 1e-5
-    # solved further both come as near to each other: nothing but what is left unsolved is between
+    # solved further the two approach each other: the difference is the remaining residual
     exact = {"solver.accuracy": 1e-6}
     moving = solve(POINT, POINTS, surfaces_of(faint, OTHER, slide_to_roll=2) | exact, fields=True)
     further = solve(POINT, POINTS, surfaces_of({}, OTHER, slide_to_roll=2) | exact, fields=True)
     # 1.3e-9, 1.6e-9, where 2.6e-6 and 3.1e-8 are left with an accuracy of 1e-2 and 1e-4
     assert moving["mu_ratio"] == pytest.approx(further["mu_ratio"], abs=5e-9)
     assert moving.field("H") == pytest.approx(further.field("H"), abs=5e-9)
-    # and with something on it the heights add up, to the bit
+    # and with roughness on both the heights add up, to the bit
     both = solve(POINT, POINTS, surfaces_of(WAVE, OTHER, slide_to_roll=2), fields=True)
     alone = solve(
         POINT,
@@ -148,7 +148,7 @@ def test_one_body_at_rest(solve):
 
 
 def test_small_waves_superpose(solve):
-    """To first order each wave is deformed as if it were alone, at 1.25 and 0.75 times u."""
+    """To first order each wave is deformed as if alone, at 1.25 and 0.75 times u."""
     apart = []
     for amplitude in (2e-3, 1e-3):
         wave, other = WAVE | {"amplitude": amplitude}, OTHER | {"amplitude": amplitude}
@@ -161,13 +161,13 @@ def test_small_waves_superpose(solve):
         both, first, second = (run.field("A_d") / amplitude for run in deformed)
         assert min(np.abs(first).max(), np.abs(second).max()) > 1.0
         apart.append(np.abs(both - first - second).max())
-    # 0.052 and 0.026: what is left is of second order
+    # 0.052 and 0.026: the remainder is of second order
     assert apart[1] < 0.03
     assert apart[0] / apart[1] == pytest.approx(2.0, rel=0.1)
 
 
 def test_increases_of_small_waves_add(solve):
-    """Over a common period the waves meet in all positions: cross terms leave no mean."""
+    """Over a common period the waves meet in all positions: cross terms have no mean."""
     apart = []
     for amplitude in (2e-3, 1e-3):
         wave, other = WAVE | {"amplitude": amplitude}, OTHER | {"amplitude": amplitude}
@@ -194,7 +194,7 @@ def test_common_period(solve):
 
 
 def test_no_common_period(solve):
-    """The error that is stated for a short window covers what a long one gives."""
+    """The stated error of a short window covers the result of a long one."""
     known = surfaces_of(WAVE | {"velocity_ratio": 1.3137}, OTHER)
     short = solve(POINT, POINTS, known | {"time.max_periods": 6})
     long = solve(POINT, POINTS, known | {"time.max_periods": 60})
@@ -213,7 +213,7 @@ def test_no_common_period(solve):
 
 @pytest.mark.long
 def test_surfaces_with_little_relative_motion(solve):
-    """At SRR = 0.02 waves of one length are where they began after 99 periods, and not before."""
+    """At SRR = 0.02 waves of one length are back where they began after 99 periods, not before."""
     keys = surfaces_of(WAVE, WAVE, slide_to_roll=0.02)
     short = solve(POINT, POINTS, keys, words=True)
     assert short.converged
@@ -222,7 +222,7 @@ def test_surfaces_with_little_relative_motion(solve):
     assert "time.max_periods = 99" in short["mu_ratio_error_note"]
     whole = solve(POINT, POINTS, keys | {"time.max_periods": 99})
     assert whole["T_period"] == pytest.approx(100.0, rel=1e-12)
-    # a third of the increase hangs on positions that the mean leaves out: docs/theory/transient.md
+    # a third of the increase is in positions that the mean omits: docs/theory/transient.md
     assert short["mu_ratio"] == pytest.approx(1.0124, abs=5e-5)
     assert whole["mu_ratio"] == pytest.approx(1.0181, abs=5e-5)
 
@@ -241,7 +241,7 @@ def test_window_is_part_of_the_error(solve):
 
 @pytest.mark.parametrize("resting", [False, True], ids=["moves", "rests"])
 def test_dent_over_roughness(solve, resting):
-    """A dent comes when the roughness fills the contact; its mean holds whole periods of that."""
+    """A dent enters when the roughness fills the contact; the mean takes whole periods of it."""
     srr = 2.0 if resting else 0.5
     done = solve(POINT, POINTS, surfaces_of(DENT, WAVE, slide_to_roll=srr), fields=True)
     assert done.converged
@@ -260,7 +260,7 @@ def test_dent_over_roughness(solve, resting):
 
 
 def test_dent_on_both(solve):
-    """Two dents: the run ends when both have left, with a film no thicker than that of either."""
+    """Two dents: the run ends when both have left; the film is no thicker than with either."""
     both = solve(POINT, POINTS, surfaces_of(DENT, DENT | {"amplitude": 2e-3}, slide_to_roll=0.5))
     first = solve(POINT, POINTS, surfaces_of(DENT, {}, slide_to_roll=0.5))
     second = solve(POINT, POINTS, surfaces_of({}, DENT | {"amplitude": 2e-3}, slide_to_roll=0.5))
@@ -270,7 +270,7 @@ def test_dent_on_both(solve):
 
 
 def test_composite_statistics(solve):
-    """Rms height and slope of both together, and the film over them."""
+    """Rms height and slope of the sum of both, and the film over them."""
     si = {"contact.load": 120.0, "contact.slide_to_roll": 0.5, "time.steps": 2}
     tile = {"kind": "fractal", "pixels": 32, "rms_height": 3e-8}
     wave = {"kind": "harmonic", "amplitude": 5e-3, "wavelength": 1.0}
@@ -293,7 +293,7 @@ def test_composite_statistics(solve):
 
 
 def test_amplitude_by_the_film(solve):
-    """Shares of the variance include an amplitude that is given as a share of the film."""
+    """Shares of the variance include an amplitude that is given relative to the film."""
     si = {"contact.load": 120.0, "contact.slide_to_roll": 0.5, "time.steps": 2}
     tile = {"kind": "fractal", "pixels": 32, "rms_height": 3e-8}
     wave = {"kind": "harmonic", "wavelength": 1.0}

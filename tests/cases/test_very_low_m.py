@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Very thick films: the stated error is that of the grid and the border."""
+"""Very thick films: the stated error is that of grid and border."""
 
 import pytest
 
@@ -17,11 +17,11 @@ def test_error_covers_and_is_not_too_large(moes_m: float, limit: float, points: 
         result = solver.summary
         lines = conclude(result).lines
     miss = abs(result["H_c"] - limit)
-    # the domain has an error of its own, for the film of an endless one
+    # the domain has an error, for the film on an endless one
     assert miss <= result["H_c_error_grid"] * 1.05
     assert result["H_c_error_grid"] <= 3.0 * miss
     assert result["H_c_error"] <= 0.1 * limit
-    # three grids and a value of digits
+    # three grids and a value with few digits
     assert (result["P_max_error"] is not None) == (points == 129)
     shown = lines["p_max"].split()[0]
     assert float(shown) == pytest.approx(result["P_max"], rel=0.005)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from reference import FIG_2, WAVINESS, WavinessRow
 
-# The period means agree with an independent program within this on the same grid and scheme
+# The period means agree with an independent program to this tolerance, with equal grid and scheme
 AGREEMENT = 5e-3
 # Residual of a time step a hundred times below the default
 TIGHT = {"solver.accuracy": 0.001}
@@ -29,7 +29,7 @@ def settings(row: WavinessRow) -> dict[str, object]:
         "surface.amplitude": row.amplitude,
         "surface.wavelength": row.wavelength,
         "time.scheme": row.scheme,
-        # The run on the coarser grid is for the error estimate alone
+        # The run on the coarser grid is only for the error estimate
         "time.estimate_error": False,
     }
 
@@ -41,7 +41,7 @@ def small(scheme: str) -> WavinessRow:
 
 def of_size(points: int, *, equal: bool) -> list[Any]:
     rows = [row for row in WAVINESS if (row.points == points) == equal]
-    # of each scheme one row per grid is always run, the others with the long tests
+    # one row per grid and scheme is always run, the others with the long tests
     first = {(row.points, row.scheme): row for row in reversed(rows)}.values()
     return [
         pytest.param(row, id=identify(row), marks=[] if row in first else pytest.mark.long)
@@ -82,7 +82,7 @@ def test_reference_rows_on_the_finest_grid(solve, table, row: WavinessRow):
     done = solve(POINT, row.points, settings(row))
     check(row, done, table)
     if row.scheme == "paper":
-        # The number printed with figure 2 of the paper
+        # The number printed in figure 2 of the paper
         assert done["mu_ratio"] == pytest.approx(FIG_2["mu_ratio"], rel=AGREEMENT)
 
 
@@ -91,7 +91,7 @@ SCHEMES = ["narrow", pytest.param("paper", marks=pytest.mark.long)]
 
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_only_the_algebraic_error_differs(solve, scheme: str):
-    """With tight steps the same discrete problem gives the same digits: five are known."""
+    """With tight tolerances the same discrete problem gives the same digits: five are known."""
     row = small(scheme)
     done = solve(POINT, row.points, settings(row) | TIGHT)
     assert done.converged
@@ -124,7 +124,7 @@ def test_other_cases_converge(solve, point: tuple[float, float], wavelength: flo
 
 @pytest.mark.long
 def test_extrapolated_ratio_is_nearer_to_finer_grids(solve):
-    """The run on the coarser grid that gives the error gives a better value too."""
+    """The run on the coarser grid that gives the error also gives a better value."""
     finest = next(r for r in WAVINESS if (r.points, r.scheme) == (513, "narrow"))
     wave = settings(finest) | {"time.estimate_error": True}
     done = solve((1000.0, 10.0), 257, wave)
@@ -197,11 +197,11 @@ def test_page_has_the_cost_of_both_coarsenings(root: Path):
 @pytest.mark.slow
 @pytest.mark.parametrize("coarsening", ["auto", "classical"])
 def test_hardest_wave_converges(root: Path, solve, coarsening: str):
-    """Friction hangs on single nodes: the mean takes several periods, and states how sure it is."""
+    """Friction depends on single nodes: the mean takes several periods, and states its error."""
     done = solve((500.0, 15.0), 513, HARDEST | {"solver.coarsening": coarsening}, timeout=1800.0)
     assert done.converged
     assert done["mu_ratio_error_stop"] <= 0.02 * done["mu_ratio"]
-    # means over as long scatter as much
+    # means over equally long windows scatter as much
     record = hardest(root)[coarsening]
     allowed = done["mu_ratio_error_stop"] + record["greatest"] - record["mean"]
     assert done["mu_ratio"] == pytest.approx(record["mean"], abs=allowed)
@@ -209,7 +209,7 @@ def test_hardest_wave_converges(root: Path, solve, coarsening: str):
 
 @pytest.mark.parametrize(
     ("moes_m", "moes_l"),
-    # the middles of the sides are long
+    # the midpoints of the sides of this range belong to the long tests
     [(1000.0, 10.0), *itertools.product((500.0, 2000.0), (5.0, 15.0))]
     + [
         pytest.param(*point, marks=pytest.mark.long)
@@ -217,7 +217,7 @@ def test_hardest_wave_converges(root: Path, solve, coarsening: str):
     ],
 )
 def test_first_steps_on_the_default_grid(solve, moes_m: float, moes_l: float):
-    """Each step converges where the grid is fine and the viscosity in the contact is not large."""
+    """Each step converges where the grid is fine and the viscosity in the contact is moderate."""
     wave = {
         "surface.kind": "harmonic",
         "surface.x_start": -1.25,
@@ -225,9 +225,9 @@ def test_first_steps_on_the_default_grid(solve, moes_m: float, moes_l: float):
         "time.estimate_error": False,
     }
     done = solve((moes_m, moes_l), 513, wave)
-    # The steps were made, no mean over a period is known
+    # The steps were made, but there is no mean over a period
     assert (done["status"], done["steps"]) == ("not settled", 4)
-    # Lines that overshoot smooth changes would take many, or never end
+    # Line relaxation that overshoots smooth changes would take many cycles, or never converge
     assert done.history["cycles"].max() <= 4
     assert done.history["residual"].max() <= done["step_residual_allowed"]
     assert np.abs(done.history["load_error"]).max() <= 1e-6
@@ -241,7 +241,7 @@ def test_start_does_not_matter(solve, scheme: str):
     assert near.converged
     assert near["steps_skipped"] == 0
     assert near["steps"] < inlet["steps"] + inlet["steps_skipped"]
-    # What is left of the start after the first whole period, and where in it the mean begins
+    # Remainder of the start after the first whole period, by the position where the mean begins
     assert near["mu_ratio"] == pytest.approx(inlet["mu_ratio"], rel=2e-4)
 
 
@@ -253,9 +253,9 @@ def test_skipped_steps_do_not_matter(solve, scheme: str):
     assert long.converged
     assert (long["steps_skipped"], long["T"]) == (0, short["T"])
     assert short["steps_skipped"] == long["steps"] - short["steps"] > 0
-    # Before the contact the film is thick against the roughness and the viscosity low: what is left
-    # out changes next to nothing. A part in a million is 100 times less than the algebraic error
-    # of the steps by default.
+    # Before the contact the film is thick compared with the roughness and the viscosity low, so
+    # that the omitted part changes next to nothing. A part in a million is 100 times less than the
+    # algebraic error of the steps by default.
     assert short["mu_ratio"] == pytest.approx(long["mu_ratio"], rel=1e-6)
     tail = -short["steps"]
     assert short.history["T"] == pytest.approx(long.history["T"][tail:], abs=1e-12)
@@ -270,14 +270,14 @@ def test_half_domain(solve, scheme: str):
         for symmetry in ("auto", "full")
     )
     assert (half["half_domain"], whole["half_domain"]) == (True, False)
-    # Both to the algebraic error: a tenth of the default's, which is 5e-4
+    # Both to the algebraic error: a tenth of the default, which is 5e-4
     assert half["mu_ratio"] == pytest.approx(whole["mu_ratio"], rel=5e-5)
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_film_is_thinner_under_a_peak(solve, scheme: str):
-    # The front lies behind the contact, which is rough at once; a quarter of the amplitude
-    # leaves a film under every peak
+    # The front has passed the contact, which is rough at once; a quarter of the amplitude leaves a
+    # film under every peak
     row = small(scheme)
     amplitude = 0.25 * row.amplitude
     wave = settings(row) | {"surface.amplitude": amplitude, "surface.x_start": 3.0, "time.steps": 1}
@@ -298,7 +298,7 @@ def test_film_is_thinner_under_a_peak(solve, scheme: str):
 
 @pytest.fixture(scope="module")
 def tile(tmp_path_factory: pytest.TempPathFactory, solve) -> tuple[dict[str, object], float]:
-    """Settings of a map that is the waviness, in SI units; its amplitude in Hertz units."""
+    """Settings of a map of the waviness, in SI units; its amplitude in Hertz units."""
     amplitude, pixels = 8e-3, 32
     smooth = solve(None, 129)
     wave = np.cos(2.0 * np.pi * np.arange(pixels) / pixels)
@@ -326,14 +326,14 @@ def test_map_equals_waviness(solve, tile):
     as_map, as_wave = solve(None, 129, settings), solve(None, 129, wave)
     assert as_map.converged
     # Same grid, same cycles: only the roughness differs, by the interpolation of the tile, which is
-    # good to 1e-9 of the amplitude with 32 pixels a wave
+    # accurate to 1e-9 of the amplitude with 32 pixels per wave
     assert as_map["mu_ratio"] == pytest.approx(as_wave["mu_ratio"], rel=1e-6)
     assert as_map["amplitude_ratio"] == pytest.approx(as_wave["amplitude_ratio"], rel=1e-6)
     assert as_map["mu_ratio"] > 1.05
 
 
 def test_maps_take_the_whole_domain(solve, tile):
-    """A map is not symmetric in general: even one that is, is not folded."""
+    """A map is not symmetric in general: even a symmetric one is not folded."""
     steps = {"time.steps": 2}
     done = solve(None, 129, tile[0] | steps | {"solver.symmetry": "auto"})
     assert done["half_domain"] is False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether the texts of a picture lie on each other."""
+"""Check that the texts of a picture do not overlap."""
 
 import itertools
 
@@ -8,10 +8,10 @@ from matplotlib.text import Text
 
 
 def written(figure):
-    """Boxes of all texts that are seen, by what they say."""
+    """Boxes of all visible texts, with the texts."""
     figure.draw_without_rendering()
     numbers = {}
-    # of second axes, too, which are no `Axes`
+    # also those of second axes, which are no `Axes`
     for axis in figure.findobj(Axis):
         low, high = sorted(axis.get_view_interval())
         margin = 1e-6 * (high - low)
@@ -27,7 +27,7 @@ def written(figure):
 
 
 def assert_apart(figure, name):
-    """No two texts lie on each other, and all are inside of the picture."""
+    """No two texts overlap, and all are inside the picture."""
     result = written(figure)
     assert len(result) > 5, name
     for (one, box), (other, next_to) in itertools.combinations(result, 2):

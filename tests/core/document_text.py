@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What stands in a document: its fenced blocks, their commands, and the output they show."""
+"""Parts of a document: its fenced blocks, their commands, and the output they show."""
 
 import math
 import re
@@ -17,7 +17,7 @@ DOCUMENTS = (
     *sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").glob("**/*.md")),
 )
 NUMBER = r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?"
-# Differ from machine to machine
+# Values that differ from machine to machine
 _FREE = re.compile(rf"(?<=residual )\s*{NUMBER}|\d+(?= ms\b)")
 
 
@@ -27,7 +27,7 @@ def plain(path: Path) -> str:
 
 
 def fences(path: Path) -> list[tuple[str, str]]:
-    """Languages and texts of the fenced blocks, in their order."""
+    """Languages and texts of the fenced blocks, in order."""
     return re.findall(r"^```(\S+)\n(.*?)^```$", path.read_text(), re.MULTILINE | re.DOTALL)
 
 
@@ -49,7 +49,7 @@ def commands(path: Path) -> list[str]:
 def is_shown(shown: str, printed: str) -> bool:
     """Whether a line of a document is a printed one.
 
-    Words and integers are the same, other numbers to 0.2 %; ``...`` stands for anything.
+    Words and integers must be equal, other numbers to 0.2 %; ``...`` matches anything.
     """
     shown, printed = (_FREE.sub("#", line.rstrip()) for line in (shown, printed))
     parts = [

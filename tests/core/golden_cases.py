@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Cases made from every key, and malformed ones, for the record golden_cases.json."""
+"""Cases with every key, and malformed ones, for the record golden_cases.json."""
 
 import re
 from pathlib import Path
@@ -16,7 +16,7 @@ ADDED = (
     "spacing_y",
 )
 LAW = "&lubricant name = 'n100' temperature = 50.0 /\n"
-# Contexts in which keys are changed
+# Cases in which keys are changed
 BASES = {
     "defaults": "",
     "moes": "&contact moes_m = 200.0 moes_l = 6.0 /\n",
@@ -116,7 +116,7 @@ MORE = {
 
 
 def values(allowed: str, default: str) -> list[str]:
-    """Give values to try of a key, other than its default."""
+    """Give values of a key to try, other than its default."""
     if "|" in allowed:
         words = [word if word[:1] == "." else f"'{word}'" for word in allowed.split("|")]
         return [word for word in words if word not in (default, "''")]
@@ -133,7 +133,7 @@ def values(allowed: str, default: str) -> list[str]:
 
 
 def made(folder: Path) -> dict[str, tuple[str, list[str]]]:
-    """Give all cases: text and options by name. `folder` is that of their files."""
+    """Give all cases: text and options by name. `folder` contains their files."""
     (folder / "oil.csv").write_text(TABLE)
     (folder / "scan.x3p").write_bytes((CASES / "scan.x3p").read_bytes())
     for name, table in BROKEN_TABLES.items():
@@ -159,7 +159,7 @@ def made(folder: Path) -> dict[str, tuple[str, list[str]]]:
 
 
 def outcome(text: str, options: list[str], folder: Path) -> list[str] | str:
-    """Give what a case resolves to, or its message."""
+    """Give the resolved case, or the message of its refusal."""
     try:
         resolved = resolve(text, str(folder / "case.nml"), options)
     except InputError as error:
@@ -168,7 +168,7 @@ def outcome(text: str, options: list[str], folder: Path) -> list[str] | str:
 
 
 def without_places(text: str, folder: Path) -> str:
-    """Replace the folder of the case, and the current one, from which options name files."""
+    """Replace the folder of the case, and the current one, against which options resolve names."""
     text = text.replace(str(folder), "FOLDER").replace(str(Path.cwd()), "CURRENT")
     # a group and a key that were added later
     text = text.replace("y_start, spacing_y, file", "y_start, file")

@@ -12,11 +12,11 @@ from pyehl.studies.journal import FILES, NAME
 
 
 def rows_in(folder: Path) -> dict[int, dict[str, object]]:
-    """Rows by number, in the order of the numbers; none where there is no journal yet."""
+    """Rows by number, in the order of the numbers; none if there is no journal yet."""
     with tempfile.TemporaryDirectory() as place:
         # as a kill at this instant would leave it
         for name in FILES:
-            # one that the writer ends at this instant is not there
+            # a file that the writer removes at this instant is missing
             with suppress(FileNotFoundError):
                 shutil.copyfile(folder / name, Path(place) / name)
         if not (Path(place) / NAME).is_file():
@@ -25,5 +25,5 @@ def rows_in(folder: Path) -> dict[int, dict[str, object]]:
             with closing(sqlite3.connect(Path(place) / NAME)) as base:
                 return {n: json.loads(row) for n, row in base.execute("SELECT * FROM rows")}
         except sqlite3.DatabaseError:
-            # copied while it was begun
+            # copied while the database was created
             return {}

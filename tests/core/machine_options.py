@@ -44,7 +44,7 @@ MAKERS = {"ball_bearing": ball_bearing, "roller_bearing": roller_bearing, "spur_
 
 
 def merged(*options):
-    """Options of which the later ones replace the earlier ones."""
+    """Merge options; later ones replace earlier ones."""
     return {key: value for option in options for key, value in option.items()}
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What people type in Python: cases, subcommands as functions, results."""
+"""The Python interface: cases, subcommands as functions, results."""
 
 import doctest
 import itertools
@@ -46,7 +46,7 @@ def fractal(tmp_path: Path) -> Path:
 
 
 def same(one: xr.Dataset, other: xr.Dataset) -> None:
-    """The same but for the times that the runs took."""
+    """Whether two results are equal except for the times of the runs."""
     times = ("wall_seconds", "seconds_per_step")
     one, other = (data.drop_vars(times, errors="ignore") for data in (one, other))
     for data in (one, other):
@@ -74,7 +74,7 @@ def test_solve_takes_a_case_and_options(smooth: Path):
 
 
 def test_transient_results_are_the_same_in_memory(fractal: Path, tmp_path: Path):
-    """A fractal surface needs no further call, and has the same fields and frames."""
+    """A fractal surface needs no further call, and gives the same fields and frames."""
     options = ("output.frame_interval=0.01", "time.skip_start=.false.")
     inside = pyehl.solve(fractal, *options, check=False)
     written = pyehl.solve(fractal, *options, output=tmp_path / "out", check=False)
@@ -112,7 +112,7 @@ def test_python_and_command_say_the_same(smooth: Path, values: dict[str, int], c
         words = {"solve": ["run"]}.get(call.__name__, [call.__name__])
         output = ["-o", "out"] if call in (pyehl.solve, pyehl.predict) else []
         assert cli.main([*words, str(smooth), *output, "--set", text]) == 2
-        # each in the words of the caller
+        # each message in terms of the caller
         assert capsys.readouterr().err == f"--set {caught.value}\n"
         assert str(caught.value).startswith(text)
 
@@ -134,7 +134,7 @@ def test_scalars_have_units(fractal: Path, tmp_path: Path):
         assert data.moes_m.attrs["units"] == "1"
         names = [str(name).lower() for name in data.variables]
         assert len(names) == len(set(names))
-    # what is not known is NaN, and no attribute
+    # an unknown value is NaN, and no attribute
     assert np.isnan(float(solved.mu_ratio))
     assert "mu_ratio" not in summary_of(solved)
     assert {"status", "converged", "case"} <= set(solved.attrs) - set(solved.variables)
@@ -153,16 +153,16 @@ def test_surface_in_memory_is_that_of_its_file(fractal: Path, tmp_path: Path):
     file = {"surface.kind": "map", "surface.file": tmp_path / "map.npy"} | size
     by_file = pyehl.solve(fractal, file, check=False)
     tile = pyehl.Topography(WAVES, size=(1e-4, 8e-5))
-    # whatever the surface of the case is
+    # whatever surface the case states
     smooth = {"surface.kind": "smooth"}
     by_tile = pyehl.solve(fractal, smooth, surface=tile, check=False, output=tmp_path / "out")
     by_array = pyehl.solve(fractal, size, surface=WAVES, check=False)
     for data in (by_tile, by_array):
         for name in ("P", "H", "RR", "history_mu_ratio"):
             assert np.array_equal(data[name].values, by_file[name].values), name
-    # the folder has the surface, and its case can be solved again
+    # the folder contains the surface, and its case can be solved again
     again = pyehl.solve(tmp_path / "out" / "case.nml", check=False)
-    # but for the mean, which is rounding and taken off once more
+    # except for the mean, which is subtracted once more, with rounding
     assert again.P.values == pytest.approx(by_tile.P.values, abs=1e-12)
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert sorted(summary["files"]) == sorted(p.name for p in (tmp_path / "out").iterdir())
@@ -336,8 +336,8 @@ def test_work_and_time_left(tmp_path: Path, capsys):
     running = [work for work in seen if work.done > 0]
     assert all(a.done < b.done for a, b in itertools.pairwise(running))
     assert all(work.done <= work.earliest <= work.latest for work in running)
-    assert running[-1].done > summary["steps"]  # those on the coarser grid count
-    # the earliest end is known after the first step; a mean that settles at once ends there
+    assert running[-1].done > summary["steps"]  # steps on the coarser grid count
+    # the earliest end is known after the first step; a mean that settles at once is reached there
     assert running[0].earliest == pytest.approx(running[-1].done, rel=0.03)
     pyehl.solve(case, "time.steps=40", "time.estimate_error=.false.", check=False, progress=True)
     shown = capsys.readouterr().err
@@ -361,7 +361,7 @@ def test_solver_is_an_iterator(fractal: Path):
                 break
         assert numbers == list(range(1, len(numbers) + 1))
         assert not solver.done
-        # the loop goes on where it was left
+        # the loop continues where it was left
         assert next(iter(solver)).summary["steps"] == 3
         assert solver.field("P").shape == (65, 65)
         data = solver.dataset()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arguments of the wrong type or value: InputError with what was expected, never a bare error."""
+"""Arguments of the wrong type or value: InputError with the expected ones, never a bare error."""
 
 import json
 import os
@@ -28,7 +28,7 @@ def quick(cases: Path) -> str:
     return str(cases / "quick.nml")
 
 
-# What is called with the path of a case, and what its message must hold
+# Calls with the path of a case, and the necessary words of their messages
 CALLS: dict[str, tuple[Callable[[str], Any], str]] = {
     "text None": (lambda q: pyehl.Case.from_text(None), "expected a text, not NoneType"),
     "text bytes": (lambda q: pyehl.Case.from_text(b"&grid /"), "expected a text, not bytes"),
@@ -109,7 +109,7 @@ def test_bad_argument(quick: str, name: str):
 
 
 def test_one_text_is_one_option(quick: str):
-    """A text in place of a list of texts is no list of its characters."""
+    """A single text in place of a list of texts is not split into characters."""
     for case in (
         pyehl.Case.from_text("", SMALL),
         pyehl.Case.from_text("", [SMALL]),
@@ -140,15 +140,15 @@ def test_derived_values_follow_new_ones():
 
 
 def test_arguments_that_are_not_utf_8(quick: str):
-    """Bytes of a file name that are no UTF-8 come as lone surrogates."""
+    """Bytes of a file name that are not UTF-8 become lone surrogates."""
     name = os.fsdecode(b"m\xff.npy")
     with pytest.raises(pyehl.InputError, match=r"surface\.file"):
         pyehl.Case(quick, "surface.kind=map", f"surface.file={name}")
 
 
 def test_faults_of_the_package_stay_what_they_are(cases: Path, tmp_path: Path, monkeypatch):
-    """An error that no argument has caused is no bad input."""
-    # where there is no folder 'out' of another program
+    """An error that no argument has caused is not reported as bad input."""
+    # in a folder without 'out' of another program
     monkeypatch.chdir(tmp_path)
 
     def broken(*_: object, **__: object) -> None:
@@ -158,7 +158,7 @@ def test_faults_of_the_package_stay_what_they_are(cases: Path, tmp_path: Path, m
     with pytest.raises(ValueError, match="a fault") as caught:
         pyehl.predict(cases / "table1.nml")
     assert not isinstance(caught.value, pyehl.EhlError)
-    # neither by a function nor by a command is it called bad input
+    # neither a function nor a command reports it as bad input
     for name, words in (
         ("api.predict_resolved", ["predict", "-o", "out"]),
         ("api.sheet", ["film"]),
@@ -197,7 +197,7 @@ def test_damaged_result_folder(quick: str, tmp_path: Path, damage: str):
 
 @pytest.mark.parametrize("command", ["plot", "export"])
 def test_result_of_another_kind(tmp_path: Path, capsys: pytest.CaptureFixture[str], command: str):
-    """The folder of a response has a case and a summary, too."""
+    """The folder of a response contains a case and a summary, too."""
     (tmp_path / "case.nml").write_text(SMALL)
     (tmp_path / "summary.json").write_text('{"kind": "response", "moes_m": 200.0}')
     assert cli.main([command, str(tmp_path)]) == 2

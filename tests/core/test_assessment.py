@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The last lines of a result, its assessment, and the words of the library's codes."""
+"""The last lines of a result, its assessment, and the words for codes of the library."""
 
 import re
 from pathlib import Path
@@ -73,7 +73,7 @@ def test_last_lines():
     assert lines["mu"] == "0.04000, smooth contact 0.03380; law 'eyring'"
     values |= {"mu_ratio_error": None, "mu_ratio_error_note": "no coarser run"}
     assert conclude(values).lines["mu_r/mu_s"] == "1.18490, error not known: no coarser run"
-    # as a prediction has them
+    # as in a prediction
     values |= {"P_max": None, "p_rise_max_Pa": 8.53e7}
     assert conclude(values).lines["p_max"] == (
         "1.0215 GPa; rough 1.0684 GPa, up to 0.0853 GPa above the smooth contact, error not known"
@@ -90,7 +90,7 @@ def test_last_lines():
         ({}, FULL, HOLDS),
         ({"H_c_error": 0.002}, f"{FULL}; but H_c is uncertain by 10 %", WITH_CARE),
         ({"flash_temperature_K": 40.0}, "but the flash temperature rise is 40.0 K", WITH_CARE),
-        # the friction has the heat in it then
+        # the friction then includes the heat
         ({"flash_temperature_K": 40.0, "temperature_rise_max_K": 60.0}, FULL, HOLDS),
         ({"status": "target missed"}, f"{FULL}; but grid.target_error is missed", WITH_CARE),
         ({"lambda_ratio": 0.8}, "thin film: Lambda = 0.800 is below 1", WITH_CARE),
@@ -119,7 +119,7 @@ def test_last_lines():
             "film breakdown: 5 nm below zero",
             NO_RESULT,
         ),
-        # of a run: the roughness, on a smooth contact that is solved; else the smooth contact
+        # of a run: the roughness, with a solved smooth contact; otherwise the smooth contact
         (
             {"status": "negative film", "message": "5 nm below zero"},
             "film breakdown: 5 nm below zero",
@@ -148,7 +148,7 @@ def test_last_lines():
     ],
 )
 def test_assessment(more: dict[str, Any], words: str, confidence: str):
-    """Each thing that a result may be short of has its word, and the worst comes first."""
+    """Each limitation of a result has a word, and the most severe one is first."""
     result = assess(GOOD | more)
     assert words in result.text
     assert result.confidence == confidence

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A case by hand: ``ehl`` refuses what pyehl refuses, and nothing else."""
+"""A case for the solver: ``ehl`` refuses what pyehl refuses, and nothing else."""
 
 import math
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ from pyehl.handle import SolverHandle
 from pyehl.solver import Solver
 
 COMPLETED = "which pyehl makes of it"
-"""Of a case that ehl refers to pyehl."""
+"""In the message of a case that ehl refers to pyehl."""
 CONTACTS: tuple[dict[str, Value], ...] = (
     {},
     {"contact.shape": "line"},
@@ -44,7 +44,7 @@ for each in KEYS.values():
 
 
 def value_of(key: Key, rng: np.random.Generator) -> Value:
-    """Draw near the default, an end of the range, or beyond it."""
+    """Draw a value near the default, at an end of the range, or beyond it."""
     if key.kind == "truth":
         return bool(rng.random() < 0.5)
     if key.kind == "word":
@@ -58,7 +58,7 @@ def value_of(key: Key, rng: np.random.Generator) -> Value:
 
 
 def cases(seed: int, count: int) -> Iterator[str]:
-    """Texts of cases with up to six keys that are drawn."""
+    """Texts of cases with up to six random keys."""
     rng = np.random.default_rng(seed)
     for _ in range(count):
         values = dict(CONTACTS[rng.integers(len(CONTACTS))])
@@ -75,7 +75,7 @@ def cases(seed: int, count: int) -> Iterator[str]:
 
 
 def by_ehl(text: str) -> str:
-    """What ehl refuses, or ''."""
+    """The error of ehl, or ''."""
     try:
         SolverHandle(text).close()
     except EhlError as error:
@@ -84,7 +84,7 @@ def by_ehl(text: str) -> str:
 
 
 def by_pyehl(text: str) -> str:
-    """What pyehl refuses, or ''."""
+    """The error of pyehl, or ''."""
     try:
         Solver(Case.from_text(text)).close()
     except EhlError as error:
@@ -100,7 +100,7 @@ def test_random_keys(seed: int, count: int):
     for text in cases(seed, count):
         ehl, pyehl = by_ehl(text), by_pyehl(text)
         assert bool(ehl) == bool(pyehl) or COMPLETED in ehl, f"{text}\n{ehl}\n{pyehl}"
-        # pyehl finds it before it calls the solver
+        # pyehl detects it before it calls the solver
         assert "resolved case" not in pyehl, f"{text}\n{pyehl}"
         refused += bool(ehl)
         taken += not ehl

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The boundary to Fortran: no copies, errors as exceptions, handles that end."""
+"""The interface to Fortran: no copies, errors as exceptions, handles that end."""
 
 import re
 import subprocess
@@ -24,7 +24,7 @@ SMALL = (
 
 @pytest.fixture
 def number() -> Iterator[int]:
-    """A solver as the library has it."""
+    """A solver as the number that the library uses."""
     text = Case.from_text(SMALL).text.encode()
     opened, status, message = ehl.open_case(text, b"case", 0, NO_HEIGHTS, 0, NO_HEIGHTS)
     errors.check(status, message)
@@ -72,14 +72,14 @@ def test_solver_in_python(solver: Solver):
 
 
 def test_fields_refer_to_the_finest_grid_from_the_start():
-    """Nested iteration begins on a coarser grid: its values are given on the finest one."""
+    """Nested iteration begins on a coarser grid; its values are given on the finest one."""
     with Solver(Case.from_text(SMALL.replace("33", "129"))) as solver:
         shapes = set()
         while not solver.done:
             x, y = solver.axes()
             pressure = solver.field("P")
             shapes.add((solver.shape, pressure.shape, x.shape, y.shape))
-            # linear between the nodes of the coarser grid: symmetric but for rounding
+            # linear between the nodes of the coarser grid: symmetric to rounding
             assert np.allclose(pressure, pressure[:, ::-1], rtol=0.0, atol=1e-14)
             solver.advance()
         assert shapes == {((129, 129), (129, 129), (129,), (129,))}
@@ -131,7 +131,7 @@ def test_closed_solver_raises():
 
 
 def test_a_handle_is_never_used_again(number: int):
-    """Even if its slot is."""
+    """A new solver gets another handle, even in the same slot."""
     errors.check(*ehl.close_case(number))
     text = Case.from_text(SMALL).text.encode()
     other, status, message = ehl.open_case(text, b"case", 0, NO_HEIGHTS, 0, NO_HEIGHTS)
@@ -161,7 +161,7 @@ with Solver(case) as again:
 
 
 def test_slots_run_out_and_are_freed():
-    """In a process of its own: other tests may have solvers open."""
+    """In a separate process: other tests may have open solvers."""
     subprocess.run([sys.executable, "-P", "-c", SLOTS], check=True)
 
 
@@ -207,7 +207,7 @@ def test_deflection_of_the_hertz_pressure():
 
 
 def test_texts_of_any_length_arrive_complete(monkeypatch: pytest.MonkeyPatch):
-    """The library states the length of a list, and is called again with a buffer of that length."""
+    """The library returns the length of a list; a second call has a buffer of that length."""
     monkeypatch.setattr(handle, "MIN_BYTES", 7)
     monkeypatch.setattr(handle, "MIN_VALUES", 3)
     with Solver(Case.from_text("&grid points = 33 /\n")) as solver:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Cases in Python: what Fortran resolves is what Python reads; the documents say the same."""
+"""Cases in Python: Python reads the values that Fortran resolves; the documents agree."""
 
 import math
 import re
@@ -17,7 +17,7 @@ from pyehl.case.settings import MACHINES
 from pyehl.errors import InputError
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
-# those of bearings and gears are no cases
+# files of bearings and gears are no cases
 CASE_FILES = [
     path
     for path in sorted(CASES.glob("*.nml"))
@@ -134,7 +134,7 @@ def test_map_is_found_beside_its_case(tmp_path: Path, monkeypatch):
 
 
 def check_message(error: InputError, place: str = "text:") -> None:
-    """One message of four lines; the caret stands under something."""
+    """One message of four lines, with the caret below a character."""
     lines = str(error).split("\n")
     assert lines[0].startswith(place)
     assert "error: " in lines[0]
@@ -224,7 +224,7 @@ def test_readme_of_cases_lists_every_key(root: Path):
         assert unit == ("" if key.unit == "-" else key.unit), name
         assert allowed == key.allowed, name
         assert meaning, name
-        # What the reader derives from other keys is stated in words
+        # defaults that follow from other keys are described in words
         if default not in {"derived", "none"}:
             assert default == key.default, name
 
@@ -287,7 +287,7 @@ FIG_2 = (
     ],
 )
 def test_derived_values_follow_an_override(given: str, option: str, followers: dict):
-    """An override of a resolved case does what it does on the case as it was given."""
+    """An override of a resolved case acts as on the original case."""
     text = FIG_2.format(given)
     first = Case.from_text(text)
     changed = first.with_options(option)
@@ -323,7 +323,7 @@ def test_an_edited_value_counts_as_given():
 
 
 def test_overrides_of_a_written_case_are_whole(drive, tmp_path: Path):
-    """Both drivers, on the case.nml of a result."""
+    """By both drivers, on the case.nml of a result."""
     (tmp_path / "case.nml").write_text(
         "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 65 /\n"
     )
@@ -336,7 +336,7 @@ def test_overrides_of_a_written_case_are_whole(drive, tmp_path: Path):
         ("pyehl", "first/case.nml"),
     ):
         assert drive(driver, case, "--set", option, "-o", "out").returncode == 0
-        # pyehl writes what keys mean as well
+        # pyehl also writes the meanings of keys
         texts.append(Case(tmp_path / "out" / "case.nml").text)
     assert texts[0] == texts[1] == texts[2]
     assert texts[0] != Case(tmp_path / "first" / "case.nml").text

@@ -30,7 +30,7 @@ COPIES: tuple[Callable[[Any], Any], ...] = (
 
 
 def exceptions() -> list[type[BaseException]]:
-    """All classes of exceptions of the package."""
+    """All exception classes of the package."""
     result = set()
     for module in pkgutil.walk_packages(pyehl.__path__, "pyehl."):
         if module.name.endswith("__main__"):
@@ -77,7 +77,7 @@ def test_results(through):
 
 @pytest.mark.parametrize("through", COPIES, ids=["pickle", "copy", "deepcopy"])
 def test_a_solver_has_no_copies(through):
-    """Two of one number would free each other's arrays."""
+    """Two solvers with one number would free each other's arrays."""
     with pyehl.Solver(pyehl.Case.from_text("", SMALL)) as solver:
         with pytest.raises(TypeError, match="cannot be copied or pickled: make another"):
             through(solver)
@@ -85,7 +85,7 @@ def test_a_solver_has_no_copies(through):
 
 
 def test_other_processes():
-    """What fails in a pool does not keep the others from their results."""
+    """A failure in a pool does not keep the other processes from their results."""
     context = multiprocessing.get_context("spawn")
     case = pyehl.Case.from_text("", SMALL)
     with ProcessPoolExecutor(1, mp_context=context) as pool:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The documents: every command and example in them works, and they name every module.
 
-Commands are the lines of blocks marked ``sh``. They are run as they stand, in the order of the
-document, in a folder that holds nothing but ``cases/``. Not run are those that install something or
-run the tests themselves: of the two commands of the README the part before ``&&`` and ``pytest``,
-and what EXEMPT lists. For these the files and options they name are looked up instead. What a
-document of SHOWN shows of the output is compared with what is printed.
+Commands are the lines of blocks marked ``sh``. They are run unchanged, in the order of the
+document, in a folder that contains only ``cases/``. Not run are those that install something or run
+the tests themselves: of the two commands of the README the part before ``&&`` and ``pytest``, and
+those in EXEMPT. The files and options that these name must exist. Output in a document of SHOWN is
+compared with the printed output.
 """
 
 import os
@@ -32,13 +32,13 @@ EXECUTED = [
     pytest.param(name, marks=pytest.mark.long) if name.startswith("docs/") else name
     for name in DOCUMENTS
 ]
-# Their blocks of text show what the commands of the block above print; a console block has both
+# Their text blocks show the output of the commands in the block above; a console block has both
 SHOWN = (
     "docs/tutorial.md",
     *(f"docs/howto/{name}.md" for name in ("compare", "lubricants", "measured-surface")),
 )
 INSTALL = "bash install"
-# First words of commands that are not run here, and who runs them
+# First words of commands that are not run here, and where they are run
 EXEMPT = {
     "bash install": "whoever pastes it; .ci/run in a fresh environment",
     "bash .ci/run": "runs this test",
@@ -53,7 +53,7 @@ EXEMPT = {
     "pyehl app": "app/test_page.py; it ends when the user ends it",
 }
 Command = Callable[..., subprocess.CompletedProcess[str]]
-# Options of meson itself, that are not in meson.options
+# Options of meson, which meson.options does not list
 MESON_OPTIONS = {"buildtype"}
 
 
@@ -67,7 +67,7 @@ def is_exempt(part: str) -> bool:
 
 @pytest.fixture
 def folder(root: Path, tmp_path: Path) -> Path:
-    """A folder with the case files, those of the rig, and a profile [µm] with places in mm."""
+    """A folder with the case files, those of the rig, and a profile [µm] with positions in mm."""
     shutil.copytree(root / "cases", tmp_path / "cases")
     shutil.copytree(root / "docs/evidence/rig", tmp_path / "docs/evidence/rig")
     z = np.cumsum(np.random.default_rng(1).normal(size=2000)) * 0.01
@@ -83,7 +83,7 @@ def execute(
     statuses: tuple[int, ...] = (0,),
     command: Command | None = None,
 ) -> str:
-    """Run one command, by `command` in this process; what it printed, paths from the folder."""
+    """Run a command by `command` in this process; returns its output, paths from the folder."""
     words = shlex.split(part.removeprefix(".venv/bin/"))
     if command is not None and words[0] == "pyehl":
         done = command(folder, *words[1:])
@@ -107,7 +107,7 @@ def execute(
 
 
 def assert_shown(shown: str, printed: str) -> None:
-    """Every line of a block stands in the output."""
+    """Every line of a block is in the output."""
     for line in shown.splitlines():
         if line != "...":
             assert any(is_shown(line, other) for other in printed.splitlines()), (
@@ -140,7 +140,7 @@ def test_commands_in_documents_work(
 
 
 def run_python(block: str, folder: Path) -> str:
-    """Run a Python block of a document where its commands have been run; what it prints."""
+    """Run a Python block of a document after its commands; returns its output."""
     done = subprocess.run(
         [sys.executable, "-P", "-c", block],
         cwd=folder,
@@ -170,7 +170,7 @@ def test_commands_in_documents_name_existing_files(root: Path):
 
 
 def test_two_commands_of_the_readme(root: Path):
-    """They are one line each, need nothing but the clone, and .ci/run finds the second."""
+    """They are one line each, need only the clone, and .ci/run takes the second from the README."""
     lines = [c for c in commands(root / "README.md") if c.startswith(INSTALL)]
     assert len(lines) == 2
     main, tests = lines
@@ -242,7 +242,7 @@ FILES = {
 
 
 def mapped(root: Path) -> list[str]:
-    """Modules of the map in fortran/README.md, in its order."""
+    """Modules of the map in fortran/README.md, in order."""
     text = (root / "fortran" / "README.md").read_text()
     rows = re.findall(r"^\| `(\w+)/` \| [^|]* \| ([^|]*) \|$", text, re.M)
     return [f"{folder}/{name}.f90" for folder, names in rows for name in names.split("`")[1::2]]
@@ -283,7 +283,7 @@ def test_every_subcommand_is_in_the_reference(root: Path):
 
 @pytest.mark.long
 def test_friction_of_both_oils(root: Path):
-    """Friction of Table 1 with an Eyring stress, and the ratio of a Newtonian oil."""
+    """Friction of Table 1 with an Eyring stress, and the ratio for a Newtonian oil."""
     text = (root / "docs/theory/prediction-compared.md").read_text(encoding="utf-8")
     case = root / "cases/table1.nml"
     newtonian = pyehl.predict(case).summary
@@ -311,7 +311,7 @@ def test_every_status_has_a_line(root: Path):
 
 
 def test_module_map_has_the_order_of_the_build(root: Path):
-    """meson.build lists the modules so that each uses only those before it; so does the map."""
+    """meson.build lists the modules so that each uses only earlier ones; so does the map."""
     built = re.findall(r"'(\w+/\w+\.f90)'", (root / "fortran" / "meson.build").read_text())
     listed = mapped(root)
     folders = [list(dict.fromkeys(n.partition("/")[0] for n in names)) for names in (built, listed)]
@@ -319,7 +319,7 @@ def test_module_map_has_the_order_of_the_build(root: Path):
 
 
 def test_modules_of_the_equation_table_have_its_routines(root: Path):
-    """Routines that fortran/README.md names are in the files that it names."""
+    """Routines that fortran/README.md names exist in the files given."""
     text = (root / "fortran" / "README.md").read_text()
     result = re.findall(r"((?:`\w+`(?:, )?)+) in `([\w/]+\.f90)`", text)
     assert len(result) >= 4
@@ -330,7 +330,7 @@ def test_modules_of_the_equation_table_have_its_routines(root: Path):
 
 
 def test_theory_names_routines_that_are_there(root: Path):
-    """Routines that a page of the theory names are in the files that it names."""
+    """Routines that a page of the theory names exist in the files given."""
     named = [
         (page.name, name, path)
         for page in sorted((root / "docs/theory").glob("*.md"))
@@ -346,7 +346,7 @@ def test_theory_names_routines_that_are_there(root: Path):
 
 
 def test_theory_names_files_that_are_there(root: Path):
-    """Every chapter states where its equations are computed, by files that exist."""
+    """Every chapter names the files in which its equations are computed, and they exist."""
     folders = ("fortran", "pyehl", "tests", "docs")
     files = {path.name for folder in folders for path in (root / folder).rglob("*.*")}
     chapters = [p for p in (root / "docs/theory").glob("*.md") if "toctree" not in p.read_text()]
@@ -360,7 +360,7 @@ def test_theory_names_files_that_are_there(root: Path):
 
 
 def test_a_v_cycle_is_in_few_files(root: Path):
-    """From the program to the kernel each file is used by one before it, or made by its factory."""
+    """From the program to the kernel, each file is used or created by the one before it."""
     text = (root / "fortran/README.md").read_text(encoding="utf-8")
     part = text.split("## From `ehl` to a V cycle\n")[1].split("\n## ")[0]
     to_cycle, cycle = (

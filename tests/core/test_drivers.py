@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Both drivers: the same bits, the same files, whole folders, clean interrupts."""
+"""Both drivers: the same bits, the same files, complete folders, clean interrupts."""
 
 import json
 import os
@@ -38,7 +38,7 @@ SUMMARY = {
 
 
 def without_time(folder: Path) -> dict[str, Any]:
-    """All files of a folder; what may differ is removed: a number, and what keys mean."""
+    """All files of a folder, without times and meanings of keys."""
     files: dict[str, Any] = {path.name: path.read_bytes() for path in folder.iterdir()}
     files["summary.json"] = json.loads(files["summary.json"])
     assert files["summary.json"].pop("wall_seconds") > 0.0
@@ -211,7 +211,7 @@ def test_load_and_export(drive, tmp_path: Path):
         assert again["p_Pa"].dims == ("Y", "X")
         assert {"X", "Y", "x_m", "y_m"} <= set(again.coords)
         for name in data.variables:
-            # a number that does not exist is NaN in both
+            # an undefined number is NaN in both
             np.testing.assert_array_equal(again[name].values.T, data[name].values)
             assert again[name].attrs == data[name].attrs
         lower = [str(name).lower() for name in again.variables]
@@ -237,7 +237,7 @@ def test_load_refuses_other_folders(tmp_path: Path):
 
 
 def test_closed_pipe_ends_without_a_traceback(drivers: dict[str, list[str]], cases: Path):
-    """As behind `| head`: no traceback."""
+    """As before `| head`: no traceback."""
     with subprocess.Popen(
         [*drivers["pyehl"][:-1], "check", str(cases / "quick.nml")],
         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Devices, pipes, files of terabytes: refused by name, at once, nothing written."""
+"""Devices, pipes, files of terabytes: refused by name, at once, with nothing written."""
 
 import os
 import resource
@@ -24,7 +24,7 @@ MAP = """&contact load = 20.0 /
 &grid points = 33 /
 &surface kind = 'map' file = '{}' length_x = 1e-3 length_y = 1e-3 /
 """
-# What is given, and what the message must name
+# The input, and words of the message
 COMMANDS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("check", "/dev/zero"), "/dev/zero"),
     (("check", "/dev/random"), "/dev/random"),
@@ -49,7 +49,7 @@ COMMANDS: tuple[tuple[tuple[str, ...], str], ...] = (
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with what `COMMANDS` read; sparse files take no room on the disk."""
+    """A folder with the inputs of `COMMANDS`; sparse files take no space on the disk."""
     folder = tmp_path_factory.mktemp("edge")
     os.mkfifo(folder / "pipe")
     (folder / "binary.nml").write_bytes(bytes(range(256)))
@@ -84,7 +84,7 @@ def test_refused_at_once(command, folder: Path, words: tuple[str, ...], part: st
 
 @pytest.mark.parametrize("size", [1_000, 30_000])
 def test_full_disk_is_reported_and_leaves_no_folder(folder: Path, size: int):
-    """A write that takes a part is no error for gfortran: the length of every file is checked."""
+    """A partial write is no error for gfortran: the length of every file is checked."""
     words = ["run", "case.nml", "-o", "full", "--set", "time.steps=4"]
     done = limited(folder, resource.RLIMIT_FSIZE, size, *words)
     assert done.returncode == 1
@@ -93,7 +93,7 @@ def test_full_disk_is_reported_and_leaves_no_folder(folder: Path, size: int):
 
 
 def test_no_more_memory_on_coarser_grids(folder: Path):
-    """What a run of 4097 x 4097 nodes is given is enough for the coarser grids."""
+    """The memory for a run of 4097 x 4097 nodes is enough for the coarser grids."""
     words = ["run", "case.nml", "-o", "large", "--set", "grid.points=4097"]
     done = limited(folder, resource.RLIMIT_AS, 600 * 2**20, *words)
     assert done.returncode in (1, 2)

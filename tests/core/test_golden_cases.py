@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Cases resolve to what the Fortran reader of commit 2e4262cb made of them (golden_cases.json).
+"""Cases resolve as with the Fortran reader of commit 2e4262cb (golden_cases.json).
 
-The record holds of a resolved case the lines that differ from the case of all defaults, or from the
-one whose key was changed, with what each value is ('given', 'default' or 'derived'), and of a
-refused one the message. Of each key it has a case that takes it, and a refusal where there is one.
-Since then messages list only keys that people give, a gap that does not open names the key that was
-given, numbers are shown as people write them, and the keys ADDED are written too. &inlet starves a
+For a resolved case the record has the lines that differ from the default case, or from the case
+whose key was changed, with the origin of each value ('given', 'default' or 'derived'), and for a
+refused one the message. For each key it has a valid case, and a refusal if there is one. Since then
+messages list only keys that people give, a gap that does not open names the key that was given,
+numbers are shown as people write them, and the keys ADDED are written too. &inlet starves a
 contact, and the sides of a narrow or a wide one follow from its width.
 """
 
@@ -41,12 +41,12 @@ def test_cases_resolve_as_recorded(folder: Path):
 
 
 def reference(name: str) -> str:
-    """Name of the case that the record of a case is compared with."""
+    """Name of the case with which the record of a case is compared."""
     base = f"base: {name.partition(': ')[0].removeprefix('written ')}"
     return base if "=" in name.partition(": ")[2] and base != "base: fault" else "base: defaults"
 
 
 def differences(lines: list[str], others: list[str]) -> list[str]:
-    """Lines that were added, and after a minus sign those that are gone."""
+    """Lines that were added, and those removed after a minus sign."""
     added = [line for line in lines if line not in others]
     return added + [f"-{line}" for line in others if line not in lines]

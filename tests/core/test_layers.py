@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The order of the Fortran layers, and who may do what."""
+"""The order of the Fortran layers, and operations that only some of them may use."""
 
 import re
 from pathlib import Path
 
 import pytest
 
-# A module uses only modules of its own layer or of a layer to the left
+# A module uses only modules of its own layer or of layers to the left
 LAYERS = [
     ["base"],
     ["physics", "grid"],
@@ -24,7 +24,7 @@ LAYERS = [
 RANK = {folder: rank for rank, folders in enumerate(LAYERS) for folder in folders}
 # First line of a program, a module or a submodule
 UNIT = r"^\s*(?:module|program|submodule\s*\(\w+\))\s+(\w+)\s*$"
-# Numerics takes plain arguments; words of a case file stop at the plan
+# Numerics takes plain arguments; only layers up to the plan use words of a case file
 NUMERICS = (
     "physics",
     "contact",
@@ -83,7 +83,7 @@ def test_numerics_use_no_cases(root: Path):
     assert not wrong
 
 
-# What gives a stencil or a shape away, and the only file of the library that may hold it
+# A pattern that identifies a stencil or a shape, and the only file of the library that may have it
 OWNED = [
     ("reynolds/poiseuille.f90", r"/[\w%]*h[xy]\s*\*\*\s*2"),
     ("reynolds/poiseuille.f90", r"\be(?:ps|x)?\(i [+-] 1, j\) \+"),
@@ -101,9 +101,9 @@ OWNED = [
 
 @pytest.mark.parametrize(("owner", "pattern"), OWNED)
 def test_each_routine_has_one_module(root: Path, owner: str, pattern: str):
-    """Discrete equations and the macroscopic contact are written once: whoever needs them asks."""
+    """Discrete equations and the macroscopic contact are implemented once; other code calls."""
     library = root / "fortran"
-    # symmetric operators as such, their transfers and products are no discretisation
+    # symmetric operators, their transfers and products are no discretisation
     apart = {"app", "bind", "test"}
     general = {"nine_point.f90", "alcouffe.f90", "galerkin.f90"}
     result = {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Malformed cases: exit status 2, one message with its place, nothing solved, nothing written.
+"""Malformed cases: exit status 2, one message with its position, nothing solved or written.
 
-In the table a section sign marks the character under which the first caret must stand.
+In the table a section sign marks the character below which the first caret must be.
 """
 
 import os
@@ -14,7 +14,7 @@ from pyehl import Case, InputError, cli
 
 MARK = "§"
 
-# Name, case with mark, --set options, what the message must hold
+# Name, case with mark, --set options, necessary words of the message
 FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("unknown key", "&grid\n  §pionts = 65\n/\n", [], ["'pionts'", "'points'", "&grid"]),
     ("unknown key, nothing near", "&grid §qqq = 1 /", [], ["'qqq'", "points, points_y, x_inlet"]),
@@ -339,7 +339,7 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
 
 
 def place(marked: str) -> tuple[str, str]:
-    """The text without its mark, and the line:column that the mark stood at."""
+    """The text without its mark, and the line:column of the mark."""
     before, mark, after = marked.partition(MARK)
     if not mark:
         return marked, ""
@@ -373,12 +373,12 @@ def test_malformed_case(tmp_path: Path, capsys, monkeypatch, name, marked, optio
     assert [path.name for path in tmp_path.iterdir()] == ["case.nml"]
 
 
-# Keys without an effect, and those of what Python alone prepares or predicts
+# Keys without an effect, and those that only Python prepares or predicts
 BY_PYTHON = (
     *("two expansions", "range upside down", "law of the prediction alone"),
     *("spectrum of a feature", "crop backwards", "crop of nothing"),
 )
-# Faults of the text before any name is read, and of the operating point, whose quantity is named
+# Faults in the text before any name, and in the operating point, whose quantity is named
 NAMELESS = (
     *("open quote", "unit with a slash", "no free volume", "a liquid without a volume"),
     *("impossible pressure", "radius in mm"),
@@ -390,7 +390,7 @@ NAMELESS = (
     [pytest.param(*fault, id=fault[0]) for fault in FAULTS if fault[0] not in BY_PYTHON],
 )
 def test_program_refuses_it(drive, tmp_path: Path, name, marked, options, parts):
-    """Without line and column, but with the key or the unknown name, and what was expected."""
+    """Without line and column, but with the key or unknown name, and the expected values."""
     (tmp_path / "case.nml").write_bytes(place(marked)[0].encode())
     done = drive("ehl", *words_of(options))
     assert (done.returncode, done.stdout) == (2, "")
@@ -415,7 +415,7 @@ def words_of(options: list[str]) -> list[str]:
 def shown_line(text: str, where: str, options: list[str]) -> str:
     """The line that the message must show, control characters as blanks."""
     line = text.split("\n")[int(where.split(":")[1]) - 1] if where else options[-1]
-    # Of a long line the beginning is shown, as long as the fault is in it
+    # For a long line its beginning is shown, if that contains the fault
     return "".join(c if ord(c) >= 32 or c == "\t" else " " for c in line)[:100].strip()
 
 
@@ -424,7 +424,7 @@ def caret_column(message: list[str]) -> int:
 
 
 def marked_column(text: str, where: str, message: list[str]) -> int:
-    """Where the caret must stand after the bar; options have no column, any place will do."""
+    """The column of the caret after the bar; options have no column, any position will do."""
     if not where:
         return caret_column(message)
     return int(where.split(":")[2])
@@ -473,7 +473,7 @@ def test_option_replaces_a_value_that_is_not_acceptable(drive, tmp_path: Path):
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
 @pytest.mark.parametrize("kind", ["/dev/zero", "/dev/random", "pipe", "large"])
 def test_no_case_file(drive, tmp_path: Path, driver, kind):
-    """Reported at once, without waiting for a pipe or reading a device without an end."""
+    """Reported at once, without waiting for a pipe or reading an endless device."""
     os.mkfifo(tmp_path / "pipe")
     with (tmp_path / "large").open("wb") as stream:
         stream.truncate(2_000_000)

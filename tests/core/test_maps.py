@@ -46,12 +46,12 @@ def write_case(path: Path, file: str, keys: str = "") -> str:
 
 
 def run(case: str | Path, folder: Path, *options: str) -> int:
-    """`pyehl run`, without another process."""
+    """`pyehl run` in this process."""
     return cli.main(["run", str(case), "-o", str(folder), "-q", *options])
 
 
 def test_run_of_a_scan(scan: Path, tmp_path: Path, capsys):
-    """The plan, the summary and the plan.txt report how it was prepared; the tile has its size."""
+    """The plan, the summary and plan.txt report its preparation; the tile has its size."""
     case = write_case(tmp_path / "case.nml", "scan.x3p", "outliers = 50.0")
     assert cli.main(["check", case]) == 0
     plan = capsys.readouterr().out
@@ -118,7 +118,7 @@ def test_program_refuses_what_it_cannot_prepare(tmp_path: Path, drive, keys: str
 
 
 def test_program_refuses_exports(tmp_path: Path, drive):
-    """Their lines run along x: read as an array they would be turned."""
+    """Their lines are along x: read as an array they would be transposed."""
     text = "# Width: 100 µm\n# Height: 100 µm\n# Value units: m\n"
     with (tmp_path / "map.txt").open("w", encoding="utf-8") as stream:
         stream.write(text)
@@ -137,11 +137,11 @@ def test_arrays_as_they_are_have_the_same_bits(tmp_path: Path, drive, numbers: s
     assert drive("ehl", case, "-o", "ehl").returncode == run(case, tmp_path / "pyehl") == 1
     for name in ("P.npy", "H.npy"):
         assert (tmp_path / "ehl" / name).read_bytes() == (tmp_path / "pyehl" / name).read_bytes()
-    # that nothing was done to it is stated, too
+    # an unprepared map is reported, too
     summary = json.loads((tmp_path / "pyehl" / "summary.json").read_text())
     assert summary["surface_preparation"]["steps"] == []
     assert "taken as it is" in (tmp_path / "pyehl" / "plan.txt").read_text()
-    # `sign` twice is nothing: a prepared map runs as the same heights from a file do
+    # `sign` twice changes nothing: a prepared map gives the result of the same heights from a file
     np.save(tmp_path / "map.npy", -heights().astype(numbers))
     other = write_case(tmp_path / "other.nml", "map.npy", f"{size} sign = -1")
     assert run(other, tmp_path / "other") == 1
@@ -229,7 +229,7 @@ def test_progress_of_large_maps(tmp_path: Path, capsys, monkeypatch):
 
 
 def test_part_of_a_large_map(tmp_path: Path, monkeypatch):
-    """What the grid does not resolve is predicted with a part; small maps are taken whole."""
+    """What the grid does not resolve is predicted with a part; small maps are used whole."""
     np.save(tmp_path / "map.npy", heights())
     size = f"length_x = {LENGTH} length_y = {LENGTH} edges = 'mirror'"
     case = Case(write_case(tmp_path / "case.nml", "map.npy", size))

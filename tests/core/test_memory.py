@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The need of memory and time is reported and checked before anything is taken."""
+"""Memory and time are estimated, reported and checked before anything is allocated."""
 
 import json
 import re
@@ -85,7 +85,7 @@ def test_limit_of_the_address_space(tmp_path: Path):
 @pytest.mark.parametrize("points", [257, 513])
 @pytest.mark.parametrize("kind", ["smooth", "harmonic"])
 def test_estimated_memory_covers_the_memory_used(points: int, kind: str):
-    """The summary has the bytes of the grids in the end; time steps hold more."""
+    """The summary has the final bytes of the grids; time steps need more."""
     case = pyehl.Case.from_text(WAVE, [f"grid.points={points}", f"surface.kind={kind}"])
     with pyehl.Solver(case) as solver:
         need = re.search(r"need +about (\d+) MB of memory", solver.describe())
@@ -96,7 +96,7 @@ def test_estimated_memory_covers_the_memory_used(points: int, kind: str):
 
 
 def test_memory_of_a_fine_grid_is_checked_before_the_run(cases: Path):
-    """Before the finest grid is set up; a smooth contact of 4097 points is half of the domain."""
+    """Before the finest grid is created; half the domain of a smooth contact of 4097 points."""
     with pyehl.Solver(cases / "quick.nml", "grid.points=4097") as solver:
         reported = re.search(r"need +about ([\d.]+) GB of memory and (\d+) s", solver.describe())
     assert reported is not None
@@ -133,7 +133,7 @@ def test_wave_that_is_too_long_to_sample(cases: Path):
 
 @pytest.mark.parametrize("interval", ["1e-12", "1e-308", "0.01"])
 def test_interval_below_a_step_keeps_every_step(tmp_path: Path, interval: str):
-    """A quotient of times is beyond every integer there."""
+    """The quotient of the times exceeds every integer."""
     case = pyehl.Case.from_text(WAVE, f"output.frame_interval={interval}")
     ds = pyehl.solve(case, check=False, output=tmp_path / "out")
     assert ds.frame_P.shape[2] == 5
@@ -149,7 +149,7 @@ def test_frames_of_an_interval(tmp_path: Path):
 
 
 def test_steps_that_are_skipped_are_counted():
-    """1.6e10 steps do not fit into an integer: the run would begin far outside, at the start."""
+    """1.6e10 steps exceed an integer: the run would start at the front, far outside."""
     slow = ("time.steps=2", "surface.velocity_ratio=1e-7", "surface.x_start=-100")
     with pytest.raises(
         pyehl.InputError, match=r"needs .* time steps (.|\n)*a velocity ratio of at least"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Commands that documents name, run or not: their scripts and options are there."""
+"""Commands named in documents, run or not: their scripts and options exist."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from pyehl.cli import SUBCOMMANDS, make_parser
 
 
 def test_scripts_in_documents_are_there(root: Path):
-    """What `python …` runs, from the root or from the folder of the page."""
+    """Scripts after `python …`, from the root or from the folder of the page."""
     seen = 0
     for name in DOCUMENTS:
         text = (root / name).read_text()
@@ -28,7 +28,7 @@ def test_scripts_in_documents_are_there(root: Path):
 
 
 def options_of(parser: argparse.ArgumentParser) -> set[str]:
-    """Options of a subcommand and of those below it."""
+    """Options of a subcommand and of the subcommands below it."""
     result: set[str] = set()
     for action in parser._actions:
         result |= set(action.option_strings)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run without a result states why, where it ended and what to do, in one line."""
+"""A run without a result states the reason, the position and a remedy, in one line."""
 
 import re
 from typing import Any
@@ -13,7 +13,7 @@ WAVE = (
     "&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     "&surface kind = 'harmonic' amplitude_over_film = 0.2 wavelength = 0.5 /\n"
 )
-"""A wave of 8 nodes; at 1.01 times the mean velocity a step passes it in fewer."""
+"""A wave of 8 nodes; at 1.01 times the mean velocity it has fewer time steps per wave."""
 IN_METRES = "&contact load = 20.0 /\n&grid points = 65 /\n&surface kind = 'bump' {} /\n"
 
 
@@ -36,7 +36,7 @@ def end(text: str, *options: str, stop: int | None = None) -> dict[str, Any]:
 def test_film_breakdown_of_a_run():
     result = end(WAVE, "surface.amplitude_over_film=0.8")
     assert result["status"] == "negative film"
-    # T of the step that failed
+    # T of the failed step
     place = f"the time step to T = {result['T'] + result['x_mesh']:.4f} on 65 x 65 nodes"
     assert result["assessment"].startswith(
         f"film breakdown: no solution with a positive film for {place}, "
@@ -49,7 +49,7 @@ def test_film_breakdown_of_a_run():
 
 
 def test_film_breakdown_of_a_feature_in_metres():
-    """Nothing is predicted of a feature; where a film has metres a boundary film can be given."""
+    """A feature has no prediction; a boundary film is suggested only if the film is in metres."""
     reported = end(IN_METRES.format("height_m = 6e-7 width = 0.5"))["assessment"]
     assert reported.startswith(
         "film breakdown: no solution with a positive film for the time step to "

@@ -24,7 +24,7 @@ ROUGH = (
     "{} /\n"
 )
 LEFT_OUT = ROUGH.format("")
-"""The grid leaves out waves: a pixel is 3 um, a mesh size 15 um."""
+"""The grid omits waves: a pixel is 3 um, a mesh size 15 um."""
 ON_GRID = ROUGH.format("shortest_wavelength = 4e-5")
 WAVE = (
     "&contact moes_m = 100.0 moes_l = 5.0 /\n"
@@ -41,7 +41,7 @@ def summary_of(folder: Path) -> dict[str, Any]:
 
 
 def last_lines(text: str) -> list[str]:
-    """The lines of results at the end of what a driver prints."""
+    """The lines of results at the end of the output of a driver."""
     lines = text.splitlines()
     first = next(k for k, line in enumerate(lines) if line.startswith("H_c   "))
     return lines[first : next(k for k, line in enumerate(lines) if line.startswith("results:"))]
@@ -75,7 +75,7 @@ def test_the_error_is_one_number(everywhere):
     assert (first["mu_ratio_error_left_out"] > 0.0) == left_out
     assert first["mu_ratio_error"] == sum(first[part] for part in PARTS)
     if left_out:
-        # what the grid leaves out counts here
+        # the omitted waves count here
         assert first["mu_ratio_error_left_out"] > 0.1 * first["mu_ratio_error"]
     for way, values in result.items():
         for name in ("mu_ratio", "mu_ratio_error", "mu_ratio_unresolved", *PARTS):
@@ -84,7 +84,7 @@ def test_the_error_is_one_number(everywhere):
 
 
 def test_last_lines(drive, tmp_path: Path):
-    """And where pyehl predicts a part of the error, that of `ehl` is not known."""
+    """Where pyehl predicts a part of the error, ehl states that it is not known."""
     for name, text in (("left out", LEFT_OUT), ("on the grid", ON_GRID)):
         (tmp_path / "case.nml").write_text(text)
         values = {}
@@ -103,7 +103,7 @@ def test_last_lines(drive, tmp_path: Path):
         ratio = f"mu_r/mu_s  {v['mu_ratio']:.{decimals}f} +- {v['mu_ratio_error']:.{decimals}f}"
         assert lines[4] == f"{ratio} (grid)"
         if name == "on the grid":
-            # these waves add next to nothing, which a prediction alone can say
+            # these waves add next to nothing, but only a prediction can state that
             assert assess(values["ehl"]).text.startswith(
                 "unresolved waves: they hold 5.2 % of the "
             )
@@ -156,14 +156,14 @@ def test_a_prediction_that_fails_makes_no_error_smaller(monkeypatch, tmp_path: P
             note = "the contribution of the omitted waves is not predicted (film breakdown)"
             assert note in values["mu_ratio_error_note"]
         assert "error not known" in solver.conclusion()
-    # where nothing is left out nothing is missing
+    # where nothing is omitted nothing is missing
     with Solver(Case.from_text(ON_GRID)) as solver:
         solver.run()
         assert solver.summary["mu_ratio_error"] > 0.0
 
 
 def test_getters_of_a_solver_compute_nothing(monkeypatch):
-    """What the waves left out add is predicted at the end of a run, not where it is read."""
+    """The contribution of omitted waves is predicted at the end of a run, not when it is read."""
     with Solver(Case.from_text(LEFT_OUT)) as solver:
         solver.run()
         for name in ("simulation.resolution.resolution", "handle.SolverHandle.advance"):
@@ -178,7 +178,7 @@ def test_getters_of_a_solver_compute_nothing(monkeypatch):
 
 
 def test_a_solver_loads_no_prediction():
-    """It is loaded when a run needs one; the plan of a rough contact does not."""
+    """It is loaded when a run needs it; the plan of a rough contact does not."""
     code = (
         "import sys, pyehl\n"
         "rough = '&surface kind = \\'fractal\\' /'\n"
@@ -217,7 +217,7 @@ def test_no_prediction_without_omitted_waves(monkeypatch):
 
 
 def test_error_in_the_coarser_run_does_not_end_the_run(tmp_path: Path):
-    """Its state is there when the run is resumed, and gone when the coarser run begins."""
+    """Its state exists when the run is resumed, and is removed when the coarser run begins."""
     case = Case.from_text(ON_GRID, ["output.checkpoint_interval=1000.0"])
     with Solver(case) as solver:
         solver.checkpoint(tmp_path / "out")
@@ -237,7 +237,7 @@ def test_error_in_the_coarser_run_does_not_end_the_run(tmp_path: Path):
 
 
 def test_a_given_number_of_steps_does_not_imply_convergence():
-    """After as many steps as it takes to settle the run is converged, before it is not."""
+    """With exactly the steps that it takes to settle the run is converged, with fewer it is not."""
     case = Case.from_text(WAVE.format(65, 0.2), ["time.estimate_error=.false."])
     settled = scalars_of(pyehl.solve(case))
     steps = settled["steps"]
@@ -247,7 +247,7 @@ def test_a_given_number_of_steps_does_not_imply_convergence():
         pyehl.solve(case, f"time.steps={steps - 1}")
     before = scalars_of(caught.value.results)
     assert before["steps"] == steps - 1
-    # it has a mean over a period, which is no result
+    # it has a mean over a period, which is not yet a result
     assert before["last_mu_ratio_mean"] == pytest.approx(settled["mu_ratio"], rel=0.05)
     assert "mu_ratio" not in before
 
@@ -310,7 +310,7 @@ def test_film_and_lambda_mean_the_same_everywhere(tmp_path: Path):
 
 
 def test_no_error_where_grids_do_not_converge():
-    """A spike of pressure that grows with each grid: 1.164, 1.199 and 1.410 on finer ones."""
+    """A pressure spike that grows with each grid: 1.164, 1.199 and 1.410 on finer ones."""
     ridge = {
         **{"contact.moes_m": 59.92, "contact.moes_l": 17.2, "grid.points": 129},
         **{"surface.kind": "ridge", "surface.width": 0.96, "surface.velocity_ratio": 0.9},
@@ -323,14 +323,14 @@ def test_no_error_where_grids_do_not_converge():
         assert (result["mu_ratio_error"] is not None) == known
         assert ("to be extrapolated" in result["mu_ratio_error_note"]) != known
         if known:
-            # what the error of the film makes of the increase
+            # effect of the error of the film on the increase
             film = result["H_c_error_grid"] / result["H_c"]
             assert result["mu_ratio_error_grid"] >= 1.99 * film * abs(result["mu_ratio"] - 1.0)
 
 
 @pytest.mark.long
 def test_reads_during_steps_are_consistent():
-    """No field, summary or line is a mixture of two states; without locks one in four is."""
+    """No field, summary or line mixes two states; without locks one in four does."""
     text = WAVE.format(65, 0.2)
     options = ("time.steps=60", "time.estimate_error=.false.")
     states, times = set(), set()

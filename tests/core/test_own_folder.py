@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run has its folder for itself, checks before it computes that it can be written."""
+"""A run locks its folder, and checks before it computes that the folder can be written."""
 
 import os
 import signal
@@ -50,7 +50,7 @@ def test_second_run_is_refused(drive, drivers, case: Path, driver: str):
         assert (case.parent / "out.checkpoint").is_dir()
         assert not (case.parent / "out.checkpoint.previous").exists()
         first.send_signal(signal.SIGKILL)
-    # of a process that is gone
+    # of a process that has ended
     assert lock.exists()
     done = drive(driver, "case.nml", "-o", "out", "-q", "--set", "grid.points=65")
     assert (done.returncode, done.stderr) == (0, "")
@@ -72,7 +72,7 @@ def test_solver_of_the_same_process_is_refused(case: Path):
     ("text", "refused"),
     [
         (MARK + "{dead} 1 {host}\n", False),
-        # the number belongs to another process now
+        # the number now belongs to another process
         (MARK + "{own} 1 {host}\n", False),
         (MARK + "{dead} 1 another-machine\n", True),
         (MARK, False),
@@ -94,7 +94,7 @@ def test_locks_and_their_messages(drive, case: Path, text: str, refused: bool):
 @DRIVERS
 @pytest.mark.parametrize("existing", [False, True])
 def test_long_name_is_refused_before_computing(drive, case: Path, driver: str, existing: bool):
-    """The result needs a longer name for a while."""
+    """The result temporarily needs a longer name."""
     name = "x" * 250
     if existing:
         (case.parent / name).mkdir()
@@ -153,7 +153,7 @@ def test_leftovers_of_killed_runs_are_removed(drive, case: Path):
 
 @pytest.mark.parametrize("name", ["run", "predict"])
 def test_next_result_removes_locks_of_killed_runs(drivers, command, case: Path, name: str):
-    """The state of the killed run stays, as do locks of others and what no run wrote."""
+    """The state of the killed run is kept, as are locks of others and files that no run wrote."""
     folder, words = case.parent, [*drivers["ehl"], "case.nml", "-o", "out", "-q"]
     with subprocess.Popen([*words, "--set", "grid.points=257"], cwd=folder) as first:
         while not (folder / "out.checkpoint").exists():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""No command touches what it did not write."""
+"""No command changes files that it did not write."""
 
 import json
 import os
@@ -28,7 +28,7 @@ WAVE = SMOOTH + "&surface kind = 'harmonic' amplitude = 0.001 /\n&time steps = 2
 MANY = "contact.moes_m=100,200"
 QUIET = ["--jobs", "1", "-q"]
 
-# Commands that write a folder: the case of each, and its words without -o
+# Commands that write a folder: the case of each, and its arguments without -o
 FOLDERS = {
     "run": (SMOOTH, ["run", "case.nml", "-q"]),
     "ehl": (SMOOTH, ["case.nml", "-q"]),
@@ -49,7 +49,7 @@ Call = Callable[..., subprocess.CompletedProcess[str]]
 def call(
     ehl: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> Call:
-    """Run a command of `FOLDERS` on its case, ``call("run", "-o", "out")``, or any other."""
+    """Run a command of `FOLDERS` on its case, ``call("run", "-o", "out")``, or another one."""
     monkeypatch.chdir(tmp_path)
 
     def run(name: str, *words: str, case: str = "case.nml") -> subprocess.CompletedProcess[str]:
@@ -71,7 +71,7 @@ def call(
 
 
 def tree(folder: Path) -> dict[str, object]:
-    """All that is below a folder: files with their bytes, links with their targets."""
+    """Everything below a folder: files with their bytes, links with their targets."""
     result: dict[str, object] = {}
     for path in sorted(folder.rglob("*")):
         name = str(path.relative_to(folder))
@@ -99,7 +99,7 @@ def refused(done: subprocess.CompletedProcess[str], *parts: str) -> None:
 
 
 def whole(folder: Path) -> dict[str, object]:
-    """Read the summary; all files that it lists are there."""
+    """Read the summary; all files that it lists exist."""
     summary = json.loads((folder / "summary.json").read_text())
     names = {path.name for path in folder.iterdir()}
     assert set(summary["files"]) <= names
@@ -154,7 +154,7 @@ def test_folder_of_the_input(call: Call, tmp_path: Path, name: str):
 
 @pytest.mark.parametrize("name", REPLACING)
 def test_forced_into_the_folder_of_the_input(call: Call, tmp_path: Path, name: str):
-    """What has another name stays; the working directory is filled, not replaced."""
+    """Files with other names are kept; the working directory is filled, not replaced."""
     foreign(tmp_path)
     (tmp_path / "my.nml").write_text(FOLDERS[name][0])
     inode = tmp_path.stat().st_ino
@@ -228,7 +228,7 @@ def test_links_are_kept(call: Call, tmp_path: Path, name: str):
 
 
 COARSE = ("--dpi", "40")
-# Single files: words of the command, and what it writes
+# Single files: arguments of the command, and its output
 FILES = {
     "export": (["export", "out", "-o", "a.nc"], ["a.nc"]),
     "export of the folder": (["export", "out"], ["out/results.nc"]),
@@ -253,7 +253,7 @@ FILES = {
 }  # fmt: skip
 
 
-# of whose kind another one is always there
+# long tests; another file of the same kind is always tested
 LONG = ("plot of the folder", "plot as pdf", "plot as svg", "surface as .txt", "surface as .nc")
 
 
@@ -280,7 +280,7 @@ def test_single_files(
     monkeypatch.setattr("pyehl.plots.movie.DPI", 40)
     shutil.copytree(results, tmp_path, dirs_exist_ok=True)
     words, files = FILES[name]
-    # a foreign file in place of each: nothing is written, not even the others
+    # a foreign file in place of each: nothing is written, not even the other files
     for file in files:
         (tmp_path / file).write_text("made by pyehl, I think")
         before = tree(tmp_path)
@@ -289,7 +289,7 @@ def test_single_files(
         (tmp_path / file).unlink()
     assert call(*words).returncode == 0
     assert all((tmp_path / file).is_file() for file in files)
-    # those of this command are replaced, through a link too
+    # files of this command are replaced, through a link too
     link, target = tmp_path / files[0], tmp_path / "elsewhere"
     link.rename(target)
     link.symlink_to(target)
@@ -349,7 +349,7 @@ def test_pictures_and_exports_go_with_the_result(call: Call, tmp_path: Path):
 
 
 def test_response_with_foreign_case(call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """Beside a tier of its own, without a summary."""
+    """Beside a folder of the command without a summary."""
     tiny = (measurement.Tier("long", 2.0, 65, 2.0, 0.5),)
     for module in (
         "measured_response.measurement",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers of the documents that `python docs/numbers` makes from their records."""
+"""Numbers of the documents that `python docs/numbers` fills from their records."""
 
 import runpy
 from pathlib import Path
@@ -10,7 +10,7 @@ import pytest
 
 @pytest.fixture(scope="module")
 def numbers(root: Path) -> dict[str, Any]:
-    """Names of the command."""
+    """The module of the command."""
     return runpy.run_path(str(root / "docs" / "numbers"))
 
 
@@ -37,7 +37,7 @@ def test_a_wrong_number_is_replaced(numbers: dict[str, Any]):
 
 
 def test_markers_are_comments_to_markdown(numbers: dict[str, Any]):
-    """One that begins a line would make the whole line HTML, a bar would end a cell."""
+    """A comment that begins a line would make the whole line HTML; a bar would end a table cell."""
     for page in numbers["pages"]():
         for line in page.read_text(encoding="utf-8").splitlines():
             assert not line.startswith("<!--") or line.endswith("-->"), f"{page}: {line}"

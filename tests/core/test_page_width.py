@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures in the width of a column, and movies that state their pace."""
+"""Figures with the width of a column, and movies that state their time scale."""
 
 import re
 from pathlib import Path
@@ -43,7 +43,7 @@ def test_pdf_is_as_wide_as_asked_with_its_fonts(moving, tmp_path, given, wide):
         data = file.read_bytes()
         box = re.search(rb"/MediaBox \[ 0 0 (\S+) (\S+) \]", data)
         assert float(box[1]) == pytest.approx(wide * POINTS_PER_MM, abs=0.01)
-        # TrueType fonts as a whole, none drawn as Type 3
+        # complete TrueType fonts, none drawn as Type 3
         assert b"/FontFile2" in data
         assert b"/Type3" not in data
 
@@ -69,7 +69,7 @@ def test_narrow_figures_have_their_panels_below_one_another(moving):
     for figure in (narrow, usual):
         figure.canvas.draw()
         assert {text.get_fontsize() for text in figure.axes[0].get_xticklabels()} == {8.0}
-    # what was drawn for a page does not change what is drawn after it
+    # figures for a page do not change later figures
     assert new_figure(2.0, 2.0).subplots().title.get_fontsize() > 8.0
 
 

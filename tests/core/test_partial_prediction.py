@@ -36,7 +36,7 @@ def predicted(boundary_film: float, friction: float = 0.1, velocity: float = 0.3
 
 @functools.cache
 def summary_of(text: str):
-    # what is looked at is not the mean over tracks
+    # the tested values are not the mean over tracks
     return pyehl.predict(pyehl.Case.from_text(text), tracks=1).summary
 
 
@@ -52,7 +52,7 @@ def test_full_film_equals_that_without_a_boundary_film():
 
 
 def test_error_of_the_smooth_film_is_one_of_the_load_share():
-    """Of a surface that is nearly smooth there is hardly another."""
+    """A nearly smooth surface has hardly any other error."""
     text = TEXT.format(0.1, 3e-8, 0.1).replace("rms_height = 3e-8", "rms_height = 1e-11")
     result = summary_of(text)
     assert result["contact_load_share"] > 0.0
@@ -67,10 +67,10 @@ def test_share_grows_with_the_boundary_film_up_to_dry_contact():
     assert 0.0 < shares[0] < 0.1
     assert (np.diff(shares) > 0.05).all()
     assert shares[-1] == pytest.approx(1.0, abs=0.02)
-    # friction is that of the boundary film there
+    # friction is only that of the boundary film there
     assert result[-1]["mu"] == pytest.approx(0.1, rel=0.05)
     assert all(s["contact_load_share_error"] >= 0.0 for s in result[:-1])
-    # of dry contact no film states how it misses that of the smooth one
+    # in dry contact no film determines the deviation from that of the smooth contact
     assert result[-1]["contact_load_share_error"] is None
     assert "no film has the load share" in result[-1]["contact_load_share_error_note"]
     assert all(s["status"] == "predicted" for s in result)
@@ -98,7 +98,7 @@ def test_smooth_films_are_those_of_a_run_with_the_boundary_film(velocity, bounda
 
 
 def test_smooth_contact_with_the_boundary_film_that_does_not_converge(monkeypatch):
-    """No films of another contact in place of its own."""
+    """Films of a contact without a boundary film do not replace the missing ones."""
     monkeypatch.setattr(
         smooth, "_solved_with_boundary_film", lambda *_: (None, "it does not converge")
     )
@@ -126,14 +126,14 @@ def test_friction_of_the_boundary_film_is_not_known():
     [([np.nan] * 4, ["not known"], []), ([1.0, np.nan, 1.2, 1.1], [], ["smooth"])],
 )
 def test_picture_of_friction_that_is_not_known(ratio, texts, labels):
-    """Of none of the positions, or of some."""
+    """Missing at all positions, or at some."""
     ax = surface.passage(np.arange(4) * 1e-4, np.array(ratio), 4e-4)
     assert [text.get_text() for text in ax.texts] == texts
     assert ax.get_legend_handles_labels()[1] == labels
 
 
 def curve_of(status: str, **columns: float | None) -> Curve:
-    """A curve of two equal points, whose columns are 1 where nothing else is given."""
+    """A curve of two equal points, whose columns are 1 unless given."""
     names = [*UNITS, *CONTACT, *CONTACT_EHL, *EMPIRICAL]
     row = {"contact.mean_velocity": 1.0, "status": status} | dict.fromkeys(names, 1.0) | columns
     return Curve("", "contact.mean_velocity", pd.DataFrame([row, row], dtype=object))
@@ -141,7 +141,7 @@ def curve_of(status: str, **columns: float | None) -> Curve:
 
 @pytest.mark.parametrize(("share", "rows"), [(None, 1), (0.0, 3)])
 def test_picture_of_a_curve_with_unknown_contact(share, rows):
-    """As of two surfaces: no panels without a line."""
+    """As with two surfaces: no panels without a line."""
     shares = {"contact_load_share": share, "contact_load_share_ehl": share}
     figure = draw_stribeck([curve_of(FULL_FILM, **shares)], "two surfaces")
     assert {ax.get_subplotspec().get_gridspec().nrows for ax in figure.axes} == {rows}
@@ -160,7 +160,7 @@ def test_curve_states_why_it_has_no_friction(tmp_path, capsys):
     words = ["stribeck", str(case), "--speed", "0.3", "--jobs", "1", "-o"]
     assert cli.main([*words, str(tmp_path / "out")]) == 0
     assert "mu         not reported: the bodies touch, and the friction" in capsys.readouterr().out
-    # shares and films are drawn without friction at any point
+    # shares and films are drawn even if no point has friction
     assert (tmp_path / "out" / "stribeck.png").is_file()
 
 
@@ -178,8 +178,8 @@ def test_boundary_film_without_contact_changes_no_bit_of_friction_with_heat():
 
 @pytest.mark.long
 def test_heat_where_bodies_touch():
-    """Friction with heat: that of a full film where contact begins, then of the boundary film."""
-    # a load with which M is in the range of the prediction
+    """With heat: friction of a full film where contact begins, then that of the boundary film."""
+    # a load at which M is in the range of the prediction
     text = HOT.replace("load = 20.0", "load = 120.0").replace("= 3e-8", "= 1e-7")
     touching = [summary_of(text.format(boundary_film)) for boundary_film in (2.6e-7, 3.6e-7)]
     full = summary_of(text.format(1e-9))
@@ -200,7 +200,7 @@ def test_heat_where_bodies_touch():
     ("heat", "surfaces"), [("auto", 2), pytest.param("never", 1, marks=pytest.mark.long)]
 )
 def test_friction_of_a_curve_is_its_ratio_times_that_of_the_smooth_contact(heat, surfaces):
-    """In every row, or mu_smooth is missing and the row states why."""
+    """In every row, or mu_smooth is missing and the row states the reason."""
     case = pyehl.Case.from_text(HOT.format(1.3e-7) + "&grid points = 65 /\n")
     case = case.with_options({"lubricant.thermal_friction": heat})
     speeds = {"contact.mean_velocity": [0.3, 3.0] if heat == "auto" else [0.3]}
@@ -218,7 +218,7 @@ def test_friction_of_a_curve_is_its_ratio_times_that_of_the_smooth_contact(heat,
 
 
 def test_smooth_contact_of_a_curve_resolves_its_inlet():
-    """On more nodes than the case has where it may touch, and on those of the case elsewhere."""
+    """Where it may touch it uses more nodes than the case, elsewhere those of the case."""
     case = pyehl.Case.from_text(TEXT.format(0.02, 1e-8, 0.1) + "&grid points = 65 /\n")
     points = touching_points(case.resolve())
     assert points > 65
@@ -235,7 +235,7 @@ def test_smooth_contact_of_a_curve_resolves_its_inlet():
 
 
 def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):
-    """Numbers of a full film are none then, and neither table nor pictures need them."""
+    """Numbers of a full film are missing then, and neither table nor pictures need them."""
     case = tmp_path / "case.nml"
     case.write_text(TEXT.format(0.3, 1.3e-7, 0.1).replace("rms_height = 3e-8", "rms_height = 2e-7"))
     assert cli.main(["predict", str(case), "-o", str(tmp_path / "out"), "--tracks", "1"]) == 0
@@ -275,7 +275,7 @@ TABLE1 = {
     ],
 )
 def test_no_number_of_contact_outside_the_range(cases, velocity, boundary_film, note, message):
-    """Bodies touch, and how much is not known: a missing value with the reason, and no friction."""
+    """Bodies touch to an unknown extent: a missing value with the reason, and no friction."""
     case = pyehl.Case(cases / "table1.nml", TABLE1)
     options = {"contact.mean_velocity": velocity, "lubricant.boundary_film": boundary_film}
     summary = pyehl.predict(case.with_options(options), tracks=1).summary
@@ -286,7 +286,7 @@ def test_no_number_of_contact_outside_the_range(cases, velocity, boundary_film, 
     names = [name for name in summary if name.startswith("contact_") and "note" not in name]
     names += ["mu_ratio", "mu_ratio_min", "mu", "mu_isothermal", "h_min_rough_m"]
     assert {name: summary[name] for name in names} == dict.fromkeys(names)
-    # there is no film that this would be an error of
+    # there is no film that could have this error
     assert summary["h_min_rough_error_m"] is None
 
 
@@ -342,7 +342,7 @@ def test_obstacle(most):
 
 
 def test_lift_off_with_its_error():
-    """Of a share that falls tenfold each time the speed doubles."""
+    """With a share that falls tenfold each time the speed doubles."""
     speeds = np.array([0.8, 0.4, 0.2, 0.1])
     rows = [
         {
@@ -364,7 +364,7 @@ def test_lift_off_with_its_error():
     assert result.lambda_ratio == pytest.approx(10.0 * result.speed)
     assert "Lambda" in result.words
     assert "theta_2" not in result.words
-    # no speed where its error is not known: beyond the curve, or by a point without one
+    # no speed if its error is unknown: beyond the curve, or next to a point without one
     for error in (1.0, None):
         unknown = [row | {"contact_load_share_error": error} for row in rows]
         lost = lift_off(speeds, pd.DataFrame(unknown))
@@ -380,7 +380,7 @@ def test_curve_with_a_boundary_film():
     case = pyehl.Case.from_text(TEXT.format(0.3, 1e-7, 0.1) + "&grid points = 65 /\n")
     curve = pyehl.stribeck(case, {"contact.mean_velocity": [0.2, 1.2]}, jobs=1)
     assert curve.status.values[0] == "mixed film"
-    # of the faster one M is below the range of the response
+    # at the higher speed M is below the range of the response
     assert curve.status.values[1] == "outside the range"
     assert curve.contact_load_share.values[0] > 0.05
     assert curve.contact_load_share.values[1] == 0.0

@@ -15,7 +15,7 @@ import pyehl
 
 
 def without_rights() -> list[str]:
-    """Words before a command that take the rights of the superuser from it."""
+    """Words before a command that remove the rights of the superuser."""
     if os.geteuid() != 0:
         return []
     if shutil.which("setpriv") is None:
@@ -24,13 +24,13 @@ def without_rights() -> list[str]:
 
 
 def command_of(words: list[str]) -> list[str]:
-    """The command of a process of its own."""
+    """The command in a separate process."""
     if words[0] in SCRIPTS:
         return [sys.executable, str(SCRIPTS[words[0]].__file__), *words[1:]]
     return [sys.executable, "-P", "-m", "pyehl", *words]
 
 
-# that folders are made on the way is for `Destination` alone
+# only `Destination` creates the folders above
 @pytest.mark.parametrize(
     ("name", "deep"),
     [

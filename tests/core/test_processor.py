@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which build of the compiled parts is taken. Both builds of a wheel are run by `.ci/wheel`."""
+"""The choice between builds of the compiled parts. `.ci/wheel` runs both builds of a wheel."""
 
 import os
 import subprocess

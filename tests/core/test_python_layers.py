@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The order of the Python modules, and who may do what."""
+"""The order of the Python modules, and operations that only some of them may use."""
 
 import ast
 import re
@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-# A module imports only from its own layer or from a layer to the left. Imports inside functions
-# and those for typing alone count too.
+# A module imports only from its own layer or from layers to the left. Imports inside functions and
+# those only for typing count too.
 LAYERS = [
     ["errors", "display", "number_text", "schema", "types", "lengths", "blas"],
     ["processor", "namelist", "given"],
@@ -51,7 +51,7 @@ def modules(root: Path) -> dict[str, tuple[Path, ast.Module]]:
 
 
 def executed(tree: ast.Module) -> ast.Module:
-    """A module without what is imported for types alone."""
+    """A module without the imports for types alone."""
 
     def for_types(node: ast.stmt) -> bool:
         return isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
@@ -97,7 +97,7 @@ def test_layers_use_only_lower_layers(graph: dict[str, set[str]]):
 
 
 def test_no_circular_import(root: Path):
-    """The modules can be ordered so that each runs only those before it."""
+    """The modules can be ordered so that each loads only earlier ones."""
     result = modules(root)
     # `from pyehl.surfaces import x` inside the folder would run its __init__ first
     left = {n: imported(executed(tree), set(result)) - {n} for n, (_, tree) in result.items()}
@@ -107,7 +107,7 @@ def test_no_circular_import(root: Path):
         left = {name: others for name, others in left.items() if name not in free}
 
 
-# A file without such a word takes nothing private: it need not be parsed
+# A file without such a word uses nothing private: it need not be parsed
 PRIVATE = re.compile(r"\b_[^\W_]|\._\b|\bimport\b.*\b_\b")
 # of notebooks and of argparse
 PUBLIC = {"_repr_html_", "_actions", "_SubParsersAction"}
@@ -135,7 +135,7 @@ def test_scripts_use_only_public_names(root: Path, folder: str):
         assert not private, f"{path} uses {private}"
 
 
-# What subcommands share
+# Modules that subcommands share
 SHARED = ("commands.arguments", "commands.machine", "commands.watching")
 
 
@@ -155,7 +155,7 @@ def test_no_module_imports_a_command(graph: dict[str, set[str]]):
     [
         ("pyehl._core", {"extension"}),
         ("argparse", {"commands", "cli"}),
-        # the prediction names a type of it
+        # the prediction names one of its types
         ("matplotlib", {"plots", "prediction"}),
     ],
 )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl report``: one page about any result, which needs nothing but itself."""
+"""``pyehl report``: one self-contained page about any result."""
 
 import base64
 import html
@@ -27,7 +27,7 @@ SMALL = "grid.points=65"
 
 
 class Page(HTMLParser):
-    """What is in a page: tags that are not closed, addresses, pictures, text."""
+    """The content of a page: tags that are not closed, addresses, pictures, text."""
 
     VOID = ("meta", "img", "br")
 
@@ -82,7 +82,7 @@ def read(path: Path) -> Page:
 
 @pytest.fixture(autouse=True)
 def stand_in(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Four pixels in place of a picture that no one looks at: drawing takes most of the time."""
+    """Replace pictures that no test looks at by four pixels: drawing takes most of the time."""
     if request.node.originalname not in DRAWN:
         stream = io.BytesIO()
         Image.fromarray(np.array([[0, 255], [255, 0]], dtype=np.uint8)).save(stream, "png")
@@ -141,7 +141,7 @@ def test_numbers_are_those_of_the_result(folders, tmp_path):
     prediction = json.loads((folders / "prediction/summary.json").read_text())
     page = read(pyehl.report(folders / "prediction", tmp_path / "other.html"))
     ratio = with_error(prediction["mu_ratio"], prediction["mu_ratio_model_error"])
-    # what each ± is, the mean over the tracks of the surface first
+    # the meaning of each ±, first the mean over the tracks of the surface
     assert (
         "1.324 ± 0.134 (mean and scatter over 8 tracks); on the track of the case 1.540"
         in page.text
@@ -150,7 +150,7 @@ def test_numbers_are_those_of_the_result(folders, tmp_path):
 
 
 def test_the_case_in_it_can_be_run(folders, tmp_path, root):
-    """The short case of the page is the case that was run."""
+    """The short case on the page is the case that was run."""
     text = pyehl.report(folders / "smooth", tmp_path / "page.html").read_text(encoding="utf-8")
     short = re.search(r"<pre>(&amp;.*?)</pre>", text, re.DOTALL)[1]
     (tmp_path / "case.nml").write_text(html.unescape(short))
@@ -301,7 +301,7 @@ def test_only_its_own_file_is_replaced(folders, tmp_path, capsys):
 
 
 def test_a_new_run_removes_the_old_report(tmp_path, root):
-    """The page belongs to the result: made of it, and gone with it."""
+    """The page belongs to the result: it is removed with it."""
     for _ in range(2):
         pyehl.solve(root / "cases/quick.nml", SMALL, output=tmp_path / "run")
         assert not (tmp_path / "run/report.html").exists()
@@ -366,7 +366,7 @@ GOOD = {
         ({"H_c_error": 0.002}, "Full film", "H_c is uncertain by 10 %", "care"),
         ({"H_c_error": None}, "Full film", "the error of H_c is not known", "care"),
         ({"flash_temperature_K": 40.0}, "Full film", "40.0 K", "care"),
-        # the friction has it already
+        # the friction already includes it
         (
             {"flash_temperature_K": 40.0, "temperature_rise_max_K": 9.0},
             "Full film",
@@ -395,7 +395,7 @@ def test_limits_of_a_result(root):
         reported = " ".join(limits(thinning, {"kind": kind}))
         assert "film and waves are Newtonian" not in reported
         assert "film and waves are Newtonian" in " ".join(limits(plain, {"kind": kind}))
-    # contact at a boundary film is never denied
+    # the page never excludes contact at a boundary film
     layer = pyehl.Case(root / "cases/table1.nml", "lubricant.boundary_film=4e-8").resolve()
     touching = {"kind": "prediction", "status": "predicted", "contact_load_share": 0.1423}
     for groups, summary, words in (
@@ -410,7 +410,7 @@ def test_limits_of_a_result(root):
         (thinning, {"kind": "solution", "status": "converged"}, "there is no mixed lubrication"),
     ):
         assert words in limits(groups, summary)[0]
-    # a measured response has no friction of which something could be stated
+    # a measured response has no friction
     assert len(limits(thinning, {"kind": "response"})) == 2
     assert warnings({"status": "converged"}) == []
     assert "moes_m" in warnings({"status": "predicted", "outside_range": ["moes_m"]})[0]
@@ -418,7 +418,7 @@ def test_limits_of_a_result(root):
 
 @pytest.mark.long
 def test_stress_in_a_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """From the folder of the result, from another one, or computed; of another case refused."""
+    """From the folder of the result, from another one, or computed; refused for another case."""
     run, other = tmp_path / "run", tmp_path / "other"
     pyehl.solve("cases/mtm.nml", "grid.points=33", output=run)
     pyehl.solve("cases/mtm.nml", "grid.points=33", "contact.load=30", output=other)

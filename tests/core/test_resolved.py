@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl check --resolved`` writes what ``ehl`` reads: the same bits by both."""
+"""``pyehl check --resolved`` writes a case that ``ehl`` reads: the same bits by both."""
 
 from pathlib import Path
 

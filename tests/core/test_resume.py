@@ -34,16 +34,16 @@ OFTEN = ["--set", "output.checkpoint_interval=1e-3"]
 
 
 def results(folder: Path) -> tuple[dict[str, Any], dict[str, bytes]]:
-    """All results that do not depend on time, threads and on how often the state is kept."""
+    """All results that do not depend on time, threads and the interval of states."""
     files = {path.name: path.read_bytes() for path in folder.iterdir()}
     summary = json.loads(files.pop("summary.json"))
     free = {"threads", "bytes", "files"} | {name for name in summary if "seconds" in name}
     if summary.get("variance_unresolved"):
-        # Python also predicts what the grid does not resolve, and counts what it leaves out
+        # Python also predicts what the grid does not resolve, and counts the omitted waves
         free |= {"mu_ratio_unresolved", "mu_ratio_error_left_out"}
         free |= {"mu_ratio_error", "mu_ratio_error_note", "assessment"}
     summary = {name: value for name, value in summary.items() if name not in free}
-    # that of pyehl has the meanings of the keys
+    # the summary of pyehl has the meanings of the keys
     case = Case(folder / "case.nml").resolve()
     for group, key in (
         ("solver", "threads"),
@@ -52,7 +52,7 @@ def results(folder: Path) -> tuple[dict[str, Any], dict[str, bytes]]:
     ):
         del case[group][key]
     files["case.nml"] = json.dumps(case).encode()
-    # of pyehl alone
+    # only in pyehl
     files.pop("plan.txt", None)
     return summary, files
 
@@ -69,7 +69,7 @@ def same(one: Path, other: Path) -> None:
 
 
 def stop_after_steps(drive, tmp_path: Path, driver: str, steps: int, *words: str) -> None:
-    """Make a run end early, with its state kept."""
+    """End a run early; its state is kept."""
     done = drive(driver, "case.nml", "-o", "out", "--set", f"time.steps={steps}", *OFTEN, *words)
     assert done.returncode == 1, done.stderr
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["status"] == "not settled"
@@ -88,7 +88,7 @@ def unbroken(drivers, tmp_path_factory) -> dict[str, Path]:
         folder = tmp_path_factory.mktemp(name)
         (folder / "case.nml").write_text(text)
         subprocess.run([*drivers[driver], "case.nml", "-o", "out", "-q"], cwd=folder, check=True)
-        # No state is left after convergence
+        # No state remains after convergence
         assert {path.name for path in folder.iterdir()} == {"case.nml", "out"}
         made[name] = folder
     return made
@@ -134,7 +134,7 @@ def test_resumption_is_proposed_only_if_it_may_end_otherwise(
 )
 def test_resumed_march_gives_the_same_bits(drive, unbroken, tmp_path: Path, first, second):
     shutil.copy(unbroken["wave"] / "case.nml", tmp_path)
-    # steps after which no mean is known yet, and two threads instead of one from there
+    # after so few steps there is no mean yet; two threads instead of one from there
     stop_after_steps(drive, tmp_path, first, 30)
     history = (tmp_path / "out" / "history.csv").read_bytes()
     words = ["--set", "time.steps=0", "--set", "solver.threads=2"]
@@ -159,7 +159,7 @@ def test_either_driver_resumes_a_fractal_surface(drive, unbroken, tmp_path: Path
 
 
 def test_given_surface_is_kept_for_both_drivers(drive, tmp_path: Path):
-    """Heights that came from Python lie beside the state."""
+    """Heights from Python are stored with the state."""
     text = FRACTAL.replace("'fractal' pixels = 32", "'map' file = 'other.npy'")
     heights = np.random.default_rng(1).normal(scale=2e-9, size=(16, 16))
     np.save(tmp_path / "other.npy", 0.0 * heights)
@@ -185,7 +185,7 @@ def test_resume_into_another_folder_leaves_the_state(drive, unbroken, tmp_path: 
     stop_after_steps(drive, tmp_path, "ehl", 20)
     before = {p.name: p.read_bytes() for p in (tmp_path / "out.checkpoint").iterdir()}
     for driver in ("ehl", "pyehl"):
-        # with the case as it was, and with one that is given
+        # with the original case, and with one that is given
         words = ["case.nml"] if driver == "pyehl" else ["--set", "time.steps=0"]
         done = drive(driver, "--resume", "out", "-o", driver, *words)
         assert (done.returncode, done.stderr) == (0, "")
@@ -217,7 +217,7 @@ def test_the_older_state_replaces_a_damaged_one(drive, unbroken, tmp_path: Path,
 
 
 def test_frames_are_written_once(drive, unbroken, tmp_path: Path):
-    """Each has a file of its own; a state with a damaged one is no good state."""
+    """Each has its own file; a state with a damaged frame is not used."""
     shutil.copy(unbroken["wave"] / "case.nml", tmp_path)
     stop_after_steps(drive, tmp_path, "ehl", 20)
     folder = tmp_path / "out.checkpoint"
@@ -259,7 +259,7 @@ def test_refused_resumptions(drive, tmp_path: Path, driver: str):
     assert "wavelength_x = 0.5" in message
     assert "wavelength_x = 0.7" in message
     assert "points = 65" in refused("out", "--set", "grid.points=65")
-    # no whole file is left, or one of another version
+    # there is no complete file, or one of another version
     states = sorted((tmp_path / "out.checkpoint").glob("checkpoint.?"))
     assert states
     kept = [path.read_bytes() for path in states]
@@ -304,7 +304,7 @@ def test_no_states_without_checkpoints(drive, tmp_path: Path):
 
 @pytest.mark.long
 def test_yielding_solids_are_resumed(drive, tmp_path: Path):
-    """What yields in a step follows from what is kept of those before it."""
+    """Yield in a step follows from the kept state of the earlier steps."""
     (tmp_path / "case.nml").write_text(
         "&contact mean_velocity = 0.1 slide_to_roll = 1.0 hardness = 1.83e9 /\n"
         "&lubricant shear_law = 'eyring' boundary_film = 2e-8 /\n"
@@ -322,7 +322,7 @@ def test_yielding_solids_are_resumed(drive, tmp_path: Path):
 
 @pytest.mark.long
 def test_change_of_coarsening_is_resumed(drive, tmp_path: Path):
-    # On so coarse a grid, far down in the residual, classical cycles are slow in the contact
+    # On so coarse a grid classical cycles converge slowly in the contact at small residuals
     text = WAVE.format(points=65, extra="amplitude_over_film = 0.5 wavelength = 1.0")
     (tmp_path / "case.nml").write_text(text.replace("200.0", "500.0 moes_l = 5.0"))
     alone = ["--set", "time.estimate_error=.false.", "--set", "solver.accuracy=0.001"]
@@ -343,7 +343,7 @@ def test_change_of_coarsening_is_resumed(drive, tmp_path: Path):
 
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
 def test_failed_step_keeps_the_last_good_state(drive, tmp_path: Path, driver: str):
-    # A wave nearly as high as the film: on this grid the film becomes negative on the way
+    # A wave nearly as high as the film: on this grid the film becomes negative during the run
     text = WAVE.format(points=65, extra="amplitude_over_film = 0.9")
     (tmp_path / "case.nml").write_text(text)
     failed = drive(driver, "case.nml", "-o", "out", *OFTEN)
@@ -352,7 +352,7 @@ def test_failed_step_keeps_the_last_good_state(drive, tmp_path: Path, driver: st
     assert summary["status"] == "negative film"
     steps = summary["steps"]
     assert steps > 10
-    # What is there is what a run of this many steps leaves
+    # The result is that of a run with this number of steps
     good = drive(driver, "case.nml", "-o", "good", "--set", f"time.steps={steps}")
     assert good.returncode == 1
     assert json.loads((tmp_path / "good" / "summary.json").read_text())["status"] == "not settled"
@@ -360,7 +360,7 @@ def test_failed_step_keeps_the_last_good_state(drive, tmp_path: Path, driver: st
         kept = (tmp_path / "out" / name).read_bytes()
         assert kept == (tmp_path / "good" / name).read_bytes()
     assert np.load(tmp_path / "out" / "H.npy").min() > 0.0
-    # Going on from it ends in the same step, and the state is still there
+    # A run resumed from it ends in the same step, and the state still exists
     again = drive(driver, "--resume", "out")
     assert again.returncode == 1
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
@@ -391,7 +391,7 @@ def start(command: list[str], folder: Path) -> subprocess.Popen[str]:
 def test_signal_leaves_results_and_a_state(
     drive, drivers, tmp_path: Path, driver: str, number: int
 ):
-    # a run of half a minute or more, and no state but the one that the signal asks for
+    # a run of half a minute or more; the signal causes its only state
     (tmp_path / "case.nml").write_text(WAVE.format(points=129, extra="x_start = -40.0"))
     words = ["--set", "output.checkpoint_interval=1e6", "--set", "time.skip_start=.false."]
     with start([*drivers[driver], "case.nml", "-o", "out", *words], tmp_path) as process:
@@ -416,7 +416,7 @@ def test_signal_leaves_results_and_a_state(
 
 
 def newest(folder: Path) -> int:
-    """When a state was last written."""
+    """Time at which a state was last written."""
     times = [0]
     for path in folder.glob("*checkpoint.?"):
         with contextlib.suppress(FileNotFoundError):
@@ -436,7 +436,8 @@ def test_killed_at_random_instants(drivers, unbroken, tmp_path: Path, driver: st
         words += ["--set", f"solver.threads={chance.choice([1, 2])}"]
         with start([*drivers[driver], *words, *OFTEN], tmp_path) as process:
             if kills < 6:
-                # after this many states, and a little later: between two of them, or inside one
+                # after this number of states, and a little later: between two of them, or while one
+                # is written
                 states, last = chance.randrange(20), newest(folder)
                 while states > 0 and process.poll() is None:
                     time.sleep(0.0005)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A resumed run ends with the summary of an uninterrupted one, compared whole."""
+"""The complete summary of a resumed run is that of an uninterrupted one."""
 
 from pathlib import Path
 from typing import Any
@@ -57,7 +57,7 @@ def ended(solver: pyehl.Solver) -> dict[str, Any]:
 
 
 def killed_and_resumed(case: pyehl.Case, folder: Path, advances: int) -> dict[str, Any] | None:
-    """Summary of a run that was killed after a number of advances; None where it left no state."""
+    """Summary of a run that was killed after a number of advances; None if it left no state."""
     with pyehl.Solver(case) as solver:
         solver.checkpoint(folder)
         for k in range(advances):
@@ -97,7 +97,7 @@ def test_whole_summary(kind: str, tmp_path: Path):
 @pytest.mark.long
 @pytest.mark.filterwarnings("ignore:time.start")
 def test_steps_from_a_prediction_that_fail_after_a_resumption(tmp_path: Path):
-    """They restart behind a front, as those of a run that was not stopped."""
+    """They restart behind a front, as in a run that was not stopped."""
     heights = 2.2e-8 * np.random.default_rng(1).standard_normal((32, 32))
     np.save(tmp_path / "map.npy", heights)
     case = pyehl.Case.from_text(
@@ -127,7 +127,7 @@ def test_steps_from_a_prediction_that_fail_after_a_resumption(tmp_path: Path):
 
 @pytest.mark.parametrize("estimate_error", [True, False])
 def test_waves_that_no_grid_resolves_are_named(estimate_error: bool):
-    """Also where the waves have gone with the run for the error: never '32 nodes or more'."""
+    """Also if these waves are only in the run for the error: never '32 nodes or more'."""
     case = pyehl.Case(
         pyehl.Case.from_text(CASES["negative film"]), {"time.estimate_error": estimate_error}
     )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The table of quantities and what writes summaries say the same."""
+"""The table of quantities agrees with the code that writes summaries."""
 
 import json
 import re
@@ -96,7 +96,7 @@ SOLUTIONS = {
 
 
 def test_solutions(tmp_path: Path):
-    """All that runs of all kinds put into a summary, and nothing that no run has."""
+    """Everything that runs of all kinds put into a summary, and nothing else."""
     np.save(tmp_path / "map.npy", 1e-9 * np.random.default_rng(1).standard_normal((16, 16)))
     written = set()
     for name, text in SOLUTIONS.items():
@@ -160,7 +160,7 @@ def test_reference_has_the_table(root: Path):
 
 
 def test_sources_name_keys_that_exist(root: Path):
-    """A misspelt name in `given` or `refuse` would be that of no key."""
+    """A misspelt name in `given` or `refuse` would be no key."""
     groups = "|".join(GROUPS)
     named = set()
     for path in [

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The second surface of a case: its motion, both drivers, heights in memory, states, messages."""
+"""The second surface of a case: motion, drivers, heights in memory, states, messages."""
 
 import csv
 import json
@@ -16,7 +16,7 @@ from pyehl.errors import InputError
 from pyehl.simulation.resolution import resolution
 from pyehl.solver import solver_on_heights
 
-# One body twice as fast as the other: the fewest positions in which tiles of one length meet
+# One body twice as fast as the other: the fewest positions before tiles of one length meet again
 FASTER, SLOWER = 4.0 / 3.0, 2.0 / 3.0
 SLIP = f"slide_to_roll = {FASTER - SLOWER} "
 CONTACT = (
@@ -31,7 +31,7 @@ STEPS = "&time steps = {} /\n"
 
 @pytest.fixture
 def heights(tmp_path: Path) -> dict[str, np.ndarray]:
-    """Two maps [m], in files of their names too."""
+    """Two maps [m], as files with these names."""
     rng = np.random.default_rng(5)
     made = {name: rng.normal(scale=3e-9, size=(16, 20)) for name in ("one", "two")}
     for name, values in made.items():
@@ -58,7 +58,7 @@ def test_velocities_follow(keys: str, velocities: tuple[float, float], slide_to_
     assert result == pytest.approx(velocities, rel=1e-15)
     assert groups["contact"]["slide_to_roll"] == slide_to_roll
     assert Case.from_text(case.text).text == case.text
-    # what followed follows anew
+    # derived values are derived again
     if not keys:
         changed = case.with_options("contact.slide_to_roll=1").resolve()
         assert changed["second_surface"]["velocity_ratio"] == 0.5
@@ -106,7 +106,7 @@ def test_messages(text: str, words: list[str], tmp_path: Path, monkeypatch):
     ("height", "words"), [("= 0.1", "4.96E-08 m\n"), ("_over_film = 0.1", "relative to the film")]
 )
 def test_plan_has_the_heights_of_both(height: str, words: str):
-    """Shares of the variance are per cents."""
+    """Shares of the variance are in per cent."""
     text = CONTACT + FRACTAL.format("surface")
     text += f"&second_surface kind = 'harmonic' amplitude{height} wavelength = 0.5 /\n"
     reported = str(pyehl.check(Case.from_text(text)))
@@ -117,7 +117,7 @@ def test_plan_has_the_heights_of_both(height: str, words: str):
 
 
 def test_feature_enters_after_the_roughness():
-    """Its front comes to X = -1.25 two a/u after that of the roughness has passed X = 1.05."""
+    """Its front reaches X = -1.25 two a/u after that of the roughness has passed X = 1.05."""
     text = "&contact slide_to_roll = 0.5 /\n" + WAVE.format("surface", "x_start = -3")
     groups = Case.from_text(text + "&second_surface kind = 'ridge' length = 1 /\n").resolve()
     arrival = (-1.25 - groups["second_surface"]["x_start"]) / 0.75
@@ -128,7 +128,7 @@ def test_feature_enters_after_the_roughness():
 
 
 def test_too_many_periods_for_the_slow_surface(heights, tmp_path: Path):
-    """What is refused names the slower surface and the periods that it takes."""
+    """The message names the slower surface and the number of periods."""
     text = CONTACT.replace(SLIP, "slide_to_roll = 1.99998 ") + FRACTAL.format("surface")
     case = Case.from_text(text + FRACTAL.format("second_surface"))
     with pytest.raises(InputError, match=r"second_surface\.velocity_ratio = ") as caught:
@@ -177,7 +177,7 @@ def test_resumed_to_the_same_bits(drive, heights, tmp_path: Path, name: str):
 
 
 def test_heights_in_memory(heights, tmp_path: Path, monkeypatch):
-    """Arrays in place of both surfaces: as from files, and the folder solves itself again."""
+    """Arrays replace both surfaces: as from files, and the result folder can be solved again."""
     monkeypatch.chdir(tmp_path)
     text = CONTACT + PAIRS["two maps"] + STEPS.format(4)
     read = pyehl.solve(Case.from_text(text), check=False)
@@ -190,14 +190,14 @@ def test_heights_in_memory(heights, tmp_path: Path, monkeypatch):
         output=tmp_path / "out",
         check=False,
     )
-    # the mean is taken off in another order
+    # the mean is subtracted in another order
     assert given.RR.values == pytest.approx(read.RR.values, abs=1e-15)
     assert given.P.values == pytest.approx(read.P.values, abs=1e-9)
     files = json.loads((tmp_path / "out" / "summary.json").read_text())["files"]
     assert {"surface.npy", "second_surface.npy"} <= set(files)
     again = pyehl.solve(tmp_path / "out" / "case.nml", check=False)
     assert np.array_equal(again.RR.values, given.RR.values)
-    # one alone
+    # only one
     alone = Case.from_text(CONTACT + PAIRS["two maps"] + STEPS.format(4))
     other = pyehl.solve(alone, second_surface=heights["one"], check=False)
     assert not np.array_equal(other.RR.values, read.RR.values)
@@ -260,18 +260,18 @@ def test_prediction_of_either_body_and_of_both(heights, tmp_path: Path, monkeypa
     assert cli.main([*words, "-o", "swept"]) == 0
     with (tmp_path / "swept" / "results.csv").open(newline="") as stream:
         _, swept = csv.DictReader(stream)
-    # more digits than a table has are not compared
+    # digits that a table does not have are not compared
     assert float(swept["mu_ratio"]) == pytest.approx(summary["mu_ratio"], rel=1e-6)
     assert float(swept["second_velocity_ratio"]) == pytest.approx(SLOWER)
-    # one on body 2 is predicted by either name
+    # a surface on body 2 is predicted as either group
     alone = Case.from_text(CONTACT + second)
     other = Case.from_text(CONTACT + first, ["contact.rough_surface=2"])
     assert pyehl.predict(alone).mu_ratio == pyehl.predict(other).mu_ratio
-    # a wave of no height is none
+    # a wave of zero height is no surface
     none = "&second_surface kind = 'harmonic' amplitude = 0 wavelength = 1 /\n"
     beside = Case.from_text(CONTACT + first + none)
     assert pyehl.predict(beside).mu_ratio == pyehl.predict(Case.from_text(CONTACT + first)).mu_ratio
-    # a single feature beside roughness has no mean
+    # a single feature with roughness has no mean
     dent = CONTACT + first + "&second_surface kind = 'dent' amplitude = 1e-3 width = 1 /\n"
     (tmp_path / "dent.nml").write_text(dent)
     assert cli.main(["predict", "dent.nml", "-o", "two"]) == 2
@@ -281,7 +281,7 @@ def test_prediction_of_either_body_and_of_both(heights, tmp_path: Path, monkeypa
 
 @pytest.mark.long
 def test_curve_of_two_surfaces(tmp_path: Path, monkeypatch, capsys):
-    """Other seeds of both; the film over the composite roughness."""
+    """Other seeds of both; the film is over the composite roughness."""
     monkeypatch.chdir(tmp_path)
     both = CONTACT + FRACTAL.format("surface") + FRACTAL.format("second_surface")
     (tmp_path / "case.nml").write_text(both)
@@ -291,7 +291,7 @@ def test_curve_of_two_surfaces(tmp_path: Path, monkeypatch, capsys):
     lines = [x for x in path.read_text().splitlines() if not x.startswith("#")]
     row = dict(zip(lines[0].split(","), lines[1].split(","), strict=True))
     keys = {"contact.mean_velocity": 0.5}
-    # that of the second surface is one more by default
+    # the seed of the second surface is greater by one by default
     groups = ("surface", "second_surface")
     seeds = [{f"{group}.seed": 1 + k + n for n, group in enumerate(groups)} for k in (0, 1)]
     each = [pyehl.predict(Case.from_text(both, keys | seed), tracks=1) for seed in seeds]
@@ -304,8 +304,8 @@ def test_curve_of_two_surfaces(tmp_path: Path, monkeypatch, capsys):
 
 
 def test_waves_that_are_left_out_are_predicted(heights, tmp_path: Path):
-    """Of two rough surfaces, too, the error holds the waves that no grid has."""
-    # the tile of the slower body is half as long: both are back at their start at the same time
+    """The error also includes the waves of two surfaces that the grid omits."""
+    # the tile of the slower body is half as long: both return to their start at the same time
     text = CONTACT.replace("65", "33") + FRACTAL.format("surface")
     text += FRACTAL.format("second_surface").replace("1e-4", "5e-5")
     with Solver(Case.from_text(text + "&time max_periods = 3 tolerance = 0.3 /\n")) as solver:
@@ -353,7 +353,7 @@ def test_film_ratio_of_both_surfaces():
 
 
 def test_pictures(heights, tmp_path: Path, monkeypatch):
-    """The deformed roughness is that of both; eq. 16, which is for one, is left out."""
+    """The deformed roughness is that of both; eq. 16, which is for one surface, is omitted."""
     monkeypatch.chdir(tmp_path)
     text = CONTACT + WAVE.format("surface", "") + WAVE.format("second_surface", "")
     data = pyehl.solve(Case.from_text(text), {"time.estimate_error": False}, output="out")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keys, defaults and ranges of the solver are those of the table of keys."""
+"""Keys, defaults and ranges of the solver agree with the table of keys."""
 
 import numpy as np
 
@@ -16,7 +16,7 @@ def test_keys_defaults_and_ranges_of_the_solver_are_those_of_the_table():
         name: (default, allowed)
         for name, default, allowed in (line.split("\t") for line in reported.decode().splitlines())
     }
-    # what the solver does not choose between: truth values, oils by name; lists have no default
+    # the solver reports no choices for these: truth values, oils by name; lists have no default
     table = {
         key.name: (
             "" if key.kind == "numbers" else key.default,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a command imports: modules that take long to load only where they are needed."""
+"""Commands import modules that take long to load only where they are needed."""
 
 import shutil
 import subprocess
@@ -8,7 +8,7 @@ import sys
 import pytest
 
 HEAVY = {"matplotlib", "xarray", "pandas", "tqdm", "dask", "SurfaceTopography"}
-# `scipy` itself is light: it loads its parts on first use
+# `scipy` itself loads fast: its parts are loaded on first use
 SCIPY = {"scipy.fft", "scipy.ndimage", "scipy.sparse", "scipy.special", "scipy.linalg"}
 
 INSIDE = """
@@ -19,8 +19,8 @@ for words in ast.literal_eval(sys.argv[1]):
     print("loaded:", *sys.modules)
 """
 PREDICT = ["predict", "table1.nml", "-o", "out", "--set", "psd.smooth=hertz"]
-"""Nothing is solved."""
-# in one process, each command may load more than those before it
+"""No contact is solved."""
+# in one process, each command may load more modules than those before it
 COMMANDS = [
     (["--version"], HEAVY | SCIPY | {"numpy"}),
     (["check", "quick.nml"], HEAVY | SCIPY),

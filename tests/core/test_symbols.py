@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The table of symbols: each symbol of the mathematics of all pages stands in it, once."""
+"""The table of symbols contains each mathematical symbol of all pages, once."""
 
 import re
 from pathlib import Path
@@ -23,13 +23,13 @@ PLAIN = {
     r"\mathrm{asinh}",
     r"\mathrm{Re}",
 }
-# What takes an argument and makes another symbol of it
+# Commands whose argument, with them, is another symbol
 MARKS = (r"\bar", r"\tilde", r"\hat", r"\dot", r"\mathbf", r"\boldsymbol", r"\mathcal", r"\mathrm")
 LETTER = re.compile(
     r"[A-Za-z]|RR|rr|\\(?:alpha|beta|gamma|delta|varepsilon|zeta|eta|theta|vartheta|kappa|lambda|mu|nu|xi|pi|rho|varrho"
     r"|sigma|tau|phi|chi|psi|omega|Gamma|Delta|Theta|Lambda|Pi|Sigma|Phi|Psi|nabla|partial|infty|ell)"
 )
-# Where a prime makes another symbol; elsewhere it is a derivative or a variable of integration
+# Here a prime makes another symbol; elsewhere it is a derivative or a variable of integration
 PRIMED = {"E", "w", "n", "K_0"}
 
 
@@ -56,7 +56,7 @@ def argument(tokens: list[str], at: int) -> tuple[list[str], int]:
 
 
 def endings(subscript: list[str]) -> list[str]:
-    """Endings that a subscript gives a name: all indices are i, levels of grids give none."""
+    """Endings that a subscript adds to a name: all indices are i, grid levels add none."""
     text = re.sub(r"\\(?:mathrm|mathbf|text|,)|[{}]", "", "".join(subscript))
     if re.fullmatch(r"2?h", text):
         return [""]
@@ -73,7 +73,7 @@ def endings(subscript: list[str]) -> list[str]:
 
 
 def scripts(tokens: list[str], at: int, name: str) -> tuple[set[str], set[str], int]:
-    """A name with its primes and subscripts, the symbols of its exponent, the index after both."""
+    """A name with its primes and subscripts, the symbols of its exponent, the next index."""
     prime, star, subscripts, inner = False, "", [""], set()
     while at < len(tokens) and tokens[at] in ("_", "'", "^"):
         if tokens[at] == "'":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables of the theory from equation or step to module: each name is in the file named."""
+"""Theory tables from equation or step to module: each name exists in the file given."""
 
 import re
 from pathlib import Path
@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-# Chapters that only lead to others
+# Chapters that only refer to others
 INDICES = {"numerics", "physics", "predicting"}
 CHAPTERS = sorted(set((ROOT / "docs" / "theory").glob("*.md")), key=lambda path: path.stem)
 SOURCES = [

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What runs without Python's lock makes no text in static memory, and many threads find the same.
+"""Code that runs without Python's lock uses no static text; threads give equal results.
 
 gfortran keeps the length of an allocatable text that a function returns in static memory: two
-threads in the same calling routine take each other's length.
+threads in the same calling routine use each other's length.
 """
 
 import os
@@ -31,13 +31,13 @@ Key = tuple[str, str]
 
 @dataclass
 class Sources:
-    """Procedures of all modules, and what calls what, by name: rather too much than too little."""
+    """Procedures of all modules, and their calls, by name: too many rather than too few."""
 
     body: dict[Key, list[str]] = field(default_factory=dict)
     used: dict[str, dict[str, Key]] = field(default_factory=dict)
     generics: dict[str, dict[str, list[str]]] = field(default_factory=dict)
     parent: dict[str, str | None] = field(default_factory=dict)
-    # the type that a type extends, and the modules that define a type of this name
+    # the parent type of a type, and the modules that define a type of this name
     extends: dict[str, str | None] = field(default_factory=dict)
     home: dict[str, str] = field(default_factory=dict)
     # type, module and target, by the name after %
@@ -46,7 +46,7 @@ class Sources:
     unlocked: list[Key] = field(default_factory=list)
 
     def resolve(self, unit: str, name: str) -> list[Key]:
-        """Procedures that a name in a unit may mean."""
+        """Procedures that a name in a unit may refer to."""
         inside: str | None = unit
         while inside in self.used:
             if (inside, name) in self.body:
@@ -63,7 +63,7 @@ class Sources:
         return [key for key in self.body if key[1] == name and self.parent[key[0]] == unit]
 
     def reach(self, unit: str) -> set[str]:
-        """Modules that a unit uses, directly or not."""
+        """Modules that a unit uses, directly or indirectly."""
         seen: set[str] = set()
         todo: list[str | None] = [unit]
         while todo:
@@ -74,7 +74,7 @@ class Sources:
         return seen
 
     def may_be_bound(self, kind: str, reach: set[str]) -> bool:
-        """Whether a unit may hold a value of a type, or of one that it extends."""
+        """Whether a unit may contain a value of a type, or of an extension of it."""
         ancestor: str | None = kind
         while ancestor is not None:
             if self.home[ancestor] in reach:
@@ -83,7 +83,7 @@ class Sources:
         return False
 
     def calls(self, key: Key) -> Iterator[Key]:
-        """Procedures whose names stand in a procedure."""
+        """Procedures whose names occur in a procedure."""
         text = "\n".join(self.body[key])
         reach = self.reach(key[0])
         for match in NAME.finditer(text):
@@ -97,7 +97,7 @@ class Sources:
 
 
 def lines_of(path: Path) -> Iterator[str]:
-    """Statements without comments and texts, one a line."""
+    """Statements without comments and texts, one per line."""
     source = re.sub(r"(?m)^\s*!(?!f2py).*$", "", path.read_text())
     source = re.sub(r'"(?:[^"]|"")*"|\'(?:[^\']|\'\')*\'', '""', source)
     source = re.sub(r"!(?!f2py).*", "", source)
@@ -106,7 +106,7 @@ def lines_of(path: Path) -> Iterator[str]:
 
 
 class Reader:
-    """Takes in a file line by line."""
+    """Read a file line by line."""
 
     def __init__(self, result: Sources) -> None:
         self.sources = result
@@ -116,7 +116,7 @@ class Reader:
         self.stack: list[tuple[str, str, bool]] = []
 
     def take(self, line: str) -> None:
-        """Take a line."""
+        """Read a line."""
         results = self.sources
         if match := UNIT.match(line):
             self.unit = match[2]
@@ -141,7 +141,7 @@ class Reader:
         self.sources.body.setdefault((self.unit, name), [])
 
     def declares(self, line: str) -> bool:
-        """Take a line of a module before its procedures; whether it is one."""
+        """Read a line of a module before its procedures; returns whether it was one."""
         if match := re.match(r"(?:abstract\s+)?interface\b\s*(\w*)", line):
             self.interface, self.generic = True, match[1]
         elif line.startswith("end interface"):
@@ -163,7 +163,7 @@ class Reader:
         return True
 
     def bind(self, items: list[str]) -> None:
-        """Take procedures that are bound to a type, ``name => target``."""
+        """Record the procedures that are bound to a type, ``name => target``."""
         for item in items:
             name, _, targets = (word.strip() for word in item.partition("=>"))
             for target in (targets or name).split(","):
@@ -171,7 +171,7 @@ class Reader:
                 self.sources.bindings.setdefault(name, []).append(bound)
 
     def statement(self, line: str) -> None:
-        """Take a line of a procedure."""
+        """Read a line of a procedure."""
         if re.match(r"end\s+(function|subroutine|procedure)\b", line):
             self.stack.pop()
             return
@@ -207,7 +207,7 @@ def test_no_static_text_without_the_lock(root: Path):
                 caller[called] = key
                 todo.append(called)
     assert not wrong, sorted(set(wrong))
-    # it gets where it has to
+    # the graph includes these routines
     for key in (
         ("ehl_plan", "make_plan"),
         ("ehl_smooth_film", "film_by_finer_grids"),
@@ -219,7 +219,7 @@ def test_no_static_text_without_the_lock(root: Path):
         assert key in caller, key
 
 
-# the smooth film that these ask for is not known on 17 nodes: a message with numbers of all lengths
+# the smooth film is not known on 17 nodes: a message with numbers of all lengths
 FAILING = """&contact moes_m = 20, moes_l = 2 /
 &grid points = 17, max_points = 17 /
 &surface kind = 'harmonic', amplitude_over_film = {}, wavelength_x = 4, wavelength_y = 4,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Transient runs from Python: fields, frames, what was not done, pictures, the step benchmark."""
+"""Transient runs from Python: fields, frames, omissions, pictures, the step benchmark."""
 
 import json
 from pathlib import Path
@@ -84,7 +84,7 @@ def test_last_frame_is_of_its_step(drive, tmp_path: Path):
 
 
 def test_huge_ratios_are_printed(drive, tmp_path: Path):
-    # A wave as high as the film of a thick, very pressure-viscous oil
+    # A wave as high as the film of a thick oil with a large pressure-viscosity coefficient
     (tmp_path / "case.nml").write_text(
         "&contact moes_m = 500.0 moes_l = 15.0 /\n&grid points = 129 /\n"
         "&surface kind = 'harmonic' amplitude_over_film = 0.93 wavelength = 0.25 /\n"
@@ -154,7 +154,7 @@ def test_deformed_roughness_ends_at_the_circle_and_shares_a_scale(run_folder: Pa
 
 def test_eq_16_only_where_it_holds(run_folder: Path):
     data = pyehl.load(run_folder)
-    # M = 31, outside of the range of the fit
+    # M = 31, outside the range of the fit
     assert transient.eq_16(summary_of(data), results.settings_of(data)) is None
     inside = {"moes_m": 1000.0, "moes_l": 10.0, "H_c": 0.0243, "amplitude": 9.72e-3}
     surface = {"kind": "harmonic", "wavelength_x": 0.5, "wavelength_y": 0.5}

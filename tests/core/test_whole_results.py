@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A result is whole at every instant: read, written twice or killed while it is replaced."""
+"""A result is complete at every instant: read, written twice or killed during replacement."""
 
 import json
 import os
@@ -15,7 +15,7 @@ from test_ownership import FOLDERS, foreign, whole
 
 @pytest.fixture
 def words(ehl: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """Command that replaces the result in `out`, where files of a user are."""
+    """Command that replaces the result in `out`, which also contains files of a user."""
     monkeypatch.chdir(tmp_path)
     text, own = FOLDERS["ehl"]
     Path("case.nml").write_text(text)
@@ -25,10 +25,10 @@ def words(ehl: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str
 
 
 def test_whole_at_every_instant(words: list[str], tmp_path: Path):
-    """A reader never misses the result, nor the files of the user, while it is replaced."""
+    """A reader always finds the result and the files of the user while it is replaced."""
 
     def read(name: str) -> bytes:
-        """Read a file; once more where it went between two names of its path."""
+        """Read a file; once more if it was just renamed."""
         try:
             return (tmp_path / "out" / name).read_bytes()
         except OSError:
@@ -46,7 +46,7 @@ def test_whole_at_every_instant(words: list[str], tmp_path: Path):
 
 
 def test_two_runs_into_one_folder(words: list[str], tmp_path: Path):
-    """One is refused where they overlap; results get there one after the other, nothing is left."""
+    """The second is refused while the first writes; otherwise they follow each other."""
     for _ in range(40):
         pair = [subprocess.Popen(words) for _ in range(2)]
         assert sorted(process.wait() for process in pair) in ([0, 0], [0, 2])
@@ -58,7 +58,7 @@ def test_two_runs_into_one_folder(words: list[str], tmp_path: Path):
 
 
 def test_killed_at_any_instant(words: list[str], tmp_path: Path):
-    """What a kill leaves is whole, with the files of the user, and the next run can go there."""
+    """The folder after a kill is complete, with files of the user; the next run can replace it."""
     began = time.monotonic()
     assert subprocess.run(words, check=False).returncode == 0
     takes = time.monotonic() - began
@@ -79,7 +79,7 @@ def test_killed_at_any_instant(words: list[str], tmp_path: Path):
 @pytest.mark.skipif(shutil.which("strace") is None, reason="needs strace")
 @pytest.mark.parametrize("calls", ["renameat2", "unlink", "rmdir", "symlink"])
 def test_killed_between_two_calls(words: list[str], tmp_path: Path, calls: str):
-    """At each call that changes a folder."""
+    """At each system call that changes a folder."""
     for number in range(1, 12):
         traced = ["strace", "-f", "-qq", "-o", os.devnull, f"-etrace={calls}"]
         traced += [f"-einject={calls}:signal=KILL:when={number}", *words]

@@ -14,7 +14,7 @@ RESOLVED = pyehl.Case(
     surface={"kind": "fractal"},
     psd={"reduction": "amplitude", "smooth": "hertz", "film_thickness": 0.2333e-6},
 ).resolve()
-# of which a test may make a wave
+# a test may replace it by a wave
 RESOLVED["surface"]["amplitude_over_film"] = 0.4
 
 
@@ -26,7 +26,7 @@ def settings():
 
 @pytest.fixture
 def table_1():
-    """Make a fractal surface of Table 1, by seed, pixels and what else is to differ."""
+    """Make a fractal surface of Table 1, by seed, pixels and options that differ."""
 
     def make(seed=1, pixels=256, **changes):
         arguments = {"rms_height": 5e-8, "hurst": 0.8} | changes
@@ -37,7 +37,7 @@ def table_1():
 
 @pytest.fixture
 def wave():
-    """Make one wave with its crests across the motion, by height and wavelength."""
+    """Make one transverse wave, by height and wavelength."""
 
     def make(height, wavelength, n=32):
         x = np.arange(n) / n

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The prediction beside the full simulation by the solver of this package."""
+"""The prediction against the full simulation by the solver of this package."""
 
 import csv
 import json
@@ -20,7 +20,7 @@ TABLE = Path(__file__).with_name("ten_surfaces.csv")
 FILM = 0.2333e-6
 LENGTH = 8.29e-4
 
-# How far the prediction lies below the simulation, mean over the surfaces, as documented in
+# Deviation of the prediction below the simulation, mean over the surfaces, as documented in
 # pyehl.prediction and the README
 DOCUMENTED = {"components": 0.128, "pattern": 0.130, "wavevector": 0.138}
 
@@ -55,7 +55,7 @@ def predicted(convention):
 
 @pytest.mark.parametrize("convention", DOCUMENTED)
 def test_ten_surfaces(simulated, convention):
-    """It ranks the surfaces as the simulation does and lies below by the same share for all."""
+    """It ranks the surfaces as the simulation does, and is lower by the same fraction for all."""
     ratios = predicted(convention)
     assert np.corrcoef(ratios, simulated["narrow"])[0, 1] > 0.999
     assert np.array_equal(np.argsort(ratios), np.argsort(simulated["narrow"]))
@@ -89,7 +89,7 @@ def test_table_can_be_made_anew(simulated, drivers, cases, tmp_path):
     assert done.returncode == 0, done.stderr
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     # the uncertainty that the table states; the value at its head, without the waves that the grid
-    # would alias, which the runs of the table held
+    # would alias, which the runs of the table included
     assert summary["mu_ratio"] == pytest.approx(1.0397, rel=2e-3)
     assert summary["variance_left_out"] == pytest.approx(4.34e-4, rel=1e-2)
     assert summary["mu_ratio"] < simulated["narrow"][5]
@@ -104,8 +104,8 @@ def test_schemes_agree_within_the_grid_error(simulated):
 def test_film_wave_lags_the_roughness_in_the_solver(ehl, tmp_path):
     """Half a radius long, M = 1000, L = 10, 257 points: amplitude, lag and pressure.
 
-    What passes a place is fitted by A cos(theta + phi), theta = 2 pi (X - X_front)/wavelength: a
-    positive phi follows behind the roughness.
+    The signal at a fixed place is fitted by A cos(theta + phi), theta = 2 pi (X -
+    X_front)/wavelength: a positive phi lags the roughness.
     """
     amplitude, wavelength, velocity, start = 9.734e-3, 0.5, 1.01, -2.5
     settings = {
@@ -151,7 +151,7 @@ def test_film_wave_lags_the_roughness_in_the_solver(ehl, tmp_path):
     centre = transfer["film", 0.0]
     assert abs(centre) == pytest.approx(0.50, abs=0.01)
     assert np.degrees(np.angle(centre)) == pytest.approx(39.6, abs=1.0)
-    # The rough surface gains on its film wave, which travels at the mean velocity
+    # The rough surface overtakes its film wave, which travels at the mean velocity
     gain = np.degrees(np.angle(transfer["film", 0.75] / transfer["film", -0.75]))
     assert gain == pytest.approx(360 * 1.5 / wavelength * (velocity - 1), abs=3.0)
     # Stiffness E'|q|/4 in Hertz units is pi |q| a/4

@@ -43,7 +43,7 @@ def test_anisotropy_factor():
 def test_conventions_agree_for_a_transverse_wave():
     k = 2 * np.pi / 1e-4
     wave = {c: amplitude.component_wavelength(k, 0.0, c) for c in amplitude.CONVENTIONS}
-    # a wave with its crests across the motion
+    # a transverse wave
     assert float(wave["wavevector"][0]) == pytest.approx(1e-4)
     assert float(wave["components"][0]) == pytest.approx(1e-4)
     assert float(wave["components"][1]) == 0.0

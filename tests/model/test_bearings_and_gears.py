@@ -43,7 +43,7 @@ def test_stribeck_without_clearance(power, stribeck, count):
     ("power", "axial", "largest"), [(BALL, 1.216, 4.37), (ROLLER, 1.260, 4.08)]
 )
 def test_half_load_zone_of_an_oblique_contact(power, axial, largest):
-    """NSK Technical Report, CAT. No. E728g, 5.1, eqs. (4) and (5), as it prints them.
+    """NSK Technical Report, CAT. No. E728g, 5.1, eqs. (4) and (5), as printed.
 
     With F_a = 1.216 F_r tan(alpha) in point contact, 1.260 in line contact, half of the elements
     carry load, and the largest is 4.37 F_r/(Z cos(alpha)), or 4.08.
@@ -51,7 +51,7 @@ def test_half_load_zone_of_an_oblique_contact(power, axial, largest):
     count, angle, centres = 2000, math.radians(15.0), 5e-4
     load = 1000.0, 1000.0 * axial * math.tan(angle)
     if power == BALL:
-        # stiff, so that the contact angle stays
+        # stiff, so that the contact angle does not change
         play = 2.0 * centres * (1.0 - math.cos(angle))
         ring = equilibrium(1e14, power, count, play, load, centres)
     else:
@@ -72,14 +72,14 @@ def test_load_zone_by_clearance(power):
     psi = azimuths(count)
     shape = np.maximum(1.0 - (1.0 - np.cos(psi)) / (2.0 * eps), 0.0) ** power
     assert ring.loads == pytest.approx(ring.loads.max() * shape, rel=1e-10, abs=1e-9)
-    # the elements within the zone carry load, no others
+    # only the elements within the zone carry load
     assert np.array_equal(
         ring.loads > 0.0, np.abs((psi + np.pi) % (2 * np.pi) - np.pi) < np.arccos(1 - 2 * eps)
     )
 
 
 def test_five_f_over_z_is_that_of_some_clearance():
-    """Stribeck's 5 F/Z lies between no clearance and that of a CN bearing with plenty of it."""
+    """Stribeck's 5 F/Z is between zero clearance and a large clearance of a CN bearing."""
     result = [
         made(BALLS, {"ball_bearing.clearance": c})[1].facts["load_max_Z_over_F"]
         for c in (0.0, 1e-5, 5e-5, 1e-4)
@@ -87,7 +87,7 @@ def test_five_f_over_z_is_that_of_some_clearance():
     assert result == sorted(result)
     assert result[0] == pytest.approx(4.385, abs=0.005)  # nine balls, one under the load
     assert result[1] < 5.0 < result[2]
-    # all of the load on one ball in the end
+    # in the limit all of the load is on one ball
     wide = made(BALLS, {"ball_bearing.clearance": 4e-4, "ball_bearing.radial_load": 10.0})[1]
     assert wide.facts["load_max_Z_over_F"] == pytest.approx(9.0)
 
@@ -105,7 +105,7 @@ def test_equilibrium_of_random_bearings():
         centres = 10 ** random.uniform(-4, -2.5) if power == BALL else math.inf
         ring = equilibrium(stiffness, power, count, clearance, load, centres)
         assert forces(ring) == pytest.approx(load, rel=1e-10, abs=1e-10 * ring.loads.sum())
-        # the approach of every element belongs to its load
+        # the approach of every element gives its load
         across = 0.5 * -clearance + ring.radial * np.cos(azimuths(count))
         if power == BALL:
             approach = np.hypot(ring.axial, centres + across) - centres
@@ -140,7 +140,7 @@ def _stiffness(angle):
 
 
 def test_tapered_rollers():
-    """Equilibrium from a small to a full load zone; Q = F_a/(Z sin alpha); cones on one apex."""
+    """Equilibrium from a small to a full load zone; Q = F_a/(Z sin alpha); cones with one apex."""
     least = 3000.0 * math.tan(math.radians(15.0))
     loaded = []
     for axial in (1.002 * least, 1.2 * least, 2.0 * least, 20.0 * least):
@@ -156,7 +156,8 @@ def test_tapered_rollers():
     outer, inner, axis = (math.radians(a) for a in (15.0, 11.0, 13.0))
     assert load * (math.cos(outer) - math.cos(inner)) == pytest.approx(-flange * math.sin(axis))
     assert load * (math.sin(outer) - math.sin(inner)) == pytest.approx(flange * math.cos(axis))
-    # with the axial load of the load zone of the cylindrical bearing it is that
+    # with the axial load of the load zone of the cylindrical bearing it has the loads of that
+    # bearing
     _, straight = made(ROLLERS)
     angle = math.radians(1.0)
     thin = {"roller_bearing.contact_angle": 1.0, "roller_bearing.roller_angle": 0.0}
@@ -168,7 +169,7 @@ def test_tapered_rollers():
 
 
 def test_elements_at_the_edge_of_the_load_zone():
-    """Hardly loaded ones are no reason to refuse the bearing; their bodies are rigid."""
+    """Lightly loaded elements do not make the bearing invalid; their bodies are rigid."""
     oil = {"lubricant.viscosity": 0.3, "lubricant.shear_law": "eyring"}
     fast = {"roller_bearing.inner_speed": 9000.0, "roller_bearing.axial_load": 1150.0}
     for keys in (TAPERED | fast, BALLS | {"ball_bearing.axial_load": 900.0}):
@@ -183,7 +184,7 @@ def test_elements_at_the_edge_of_the_load_zone():
     w = light["load_N"] / light["length_m"]
     film = 4.9 * 0.3 * light["mean_velocity_m_per_s"] * light["radius_m"] / w
     assert (light["h_min_m"] / film).between(1.0, 1.5).all()
-    # a negligible load on every element is a mistake of units
+    # a negligible load on every element indicates a mistake of units
     with pytest.raises(pyehl.InputError, match="Moes parameter M"):
         bearing(ROLLERS, oil, {"roller_bearing.radial_load": 0.1})
 
@@ -202,7 +203,7 @@ def test_hertz_stiffness():
 
 
 def test_velocities_of_a_bearing():
-    """Both rings: u = omega d_m/4 (1 - (D/d_m)^2), and rolling seen from the cage."""
+    """Both rings: u = omega d_m/4 (1 - (D/d_m)^2), and rolling in the frame of the cage."""
     for options, d in ((BALLS, 9.525e-3), (ROLLERS, 9e-3)):
         machine, result = made(options)
         gamma = d / 0.046
@@ -212,17 +213,17 @@ def test_velocities_of_a_bearing():
             [expected] * len(result.contacts)
         )
         cage = RPM * result.facts["cage_speed_per_min"]
-        # seen from the cage, the raceways run by at the same velocity
+        # in the frame of the cage, both raceways move at the same velocity
         assert (omega - cage) * 0.5 * (0.046 - d) == pytest.approx(expected)
         assert cage * 0.5 * (0.046 + d) == pytest.approx(expected)
-        # speeds of both rings count by their difference
+        # only the difference of the speeds of the rings matters
         group = machine.kind
         both = {f"{group}.inner_speed": 1000.0, f"{group}.outer_speed": -2000.0}
         assert made(options, both)[1].contacts[0].mean_velocity == pytest.approx(expected)
 
 
 def test_contacts_of_a_6206():
-    """The radii of the drawing; both rings carry the same load."""
+    """Radii from the drawing; both rings carry the same load."""
     _, result = made(BALLS)
     inner, outer = result.contacts[0], result.contacts[1]
     assert inner.radii == pytest.approx((4.7625e-3, 4.7625e-3, 18.2375e-3, -4.953e-3))
@@ -246,7 +247,7 @@ def test_fzg_type_c():
     assert [2e3 * r for r in mesh.tips] == pytest.approx([82.46, 118.36], abs=0.01)
     assert mesh.contact_ratio == pytest.approx(1.44, abs=0.005)
     assert sum(mesh.radii(0.0)) * 1e3 == pytest.approx(34.92, abs=0.01)
-    # without backlash the profile shifts have the same centre distance within 3 um
+    # with zero backlash the profile shifts give the same centre distance within 3 um
     tight = made(FZG, {"spur_gear.centre_distance": 0.0})[1].mesh
     assert tight.centre_distance == pytest.approx(91.5e-3, abs=6e-6)
     at = next(k for k, place in enumerate(pair.places) if place["s_m"] == 0.0)
@@ -285,9 +286,9 @@ def test_random_gears():
             difference = contact.slide_to_roll * contact.mean_velocity
             sliding = place * speed * (1.0 + teeth[0] / teeth[1])
             assert difference == pytest.approx(sliding, abs=1e-12 * speed)
-        # equal surface velocities where and only where the pitch point is
+        # equal surface velocities only at the pitch point
         assert pair.contacts[int(np.argmin(np.abs(places)))].slide_to_roll == 0.0
-        # two pairs, a base pitch apart, carry the whole load between them
+        # two pairs, a base pitch apart, carry the whole load
         for place in np.linspace(mesh.ends[0], mesh.single[0], 9)[1:-1]:
             both = [
                 mesh.load_share(s, options["spur_gear.load_sharing"])

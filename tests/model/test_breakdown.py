@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the film ends, the suggested cut-off wavelength, and many tracks."""
+"""Film breakdown, the suggested cut-off wavelength, and many tracks."""
 
 from dataclasses import replace
 
@@ -26,13 +26,13 @@ def flat(film):
 
 
 def ends(deformed, a, film):
-    """Where the film over one tile with pixels of a micrometre ends."""
+    """Film breakdown over one tile with pixels of a micrometre."""
     tile = Topography(deformed, (1e-6 * deformed.shape[0], 1e-6 * deformed.shape[1]))
     return below_zero([tile], [deformed], (a, a), film)
 
 
 def test_share_of_one_pixel_follows_from_its_chord():
-    """A pixel on the centre line is inside for 2 a of every tile length, one at y for less."""
+    """A pixel on the centre line is inside over 2 a of every tile length, one at y over less."""
     deformed = np.zeros((200, 300))
     deformed[40, 0] = 1.2e-7
     a = 1e-4
@@ -44,7 +44,7 @@ def test_share_of_one_pixel_follows_from_its_chord():
     deformed[41, 80] = 1.1e-7
     both = ends(deformed, a, flat(1e-7))
     assert both.share / result.share == pytest.approx(1 + np.sqrt(1 - 0.8**2), rel=0.03)
-    # a row that never comes near the contact
+    # a row that never enters the contact
     deformed[0, 150] = 1.0
     assert ends(deformed, a, flat(1e-7)) == both
 
@@ -104,7 +104,7 @@ def test_threshold_with_a_full_film_is_found():
     assert points == 2
     assert 40.0 < threshold < 300.0
     assert suggested_outliers(away, without, lambda tile: False) is None
-    # no spike stands out
+    # no pixel is a spike
     assert suggested_outliers(np.ones((9, 9)), without, lambda tile: True) is None
 
 
@@ -139,7 +139,7 @@ def test_film_breakdown_names_place_and_cut_off(scan):
     assert advice.outlier_points == 2
     text = "\n".join(advice.report())
     assert "2 points count as spikes and are removed" in text
-    # what is proposed has a full film
+    # the suggestion gives a full film
     scan["surface"]["outliers"] = advice.outliers
     good = predict(scan)
     assert good.friction.status == "predicted"
@@ -156,7 +156,7 @@ def test_film_breakdown_names_place_and_cut_off(scan):
 
 
 def test_suggested_cut_off_has_a_known_error(settings, monkeypatch):
-    """A film that is full is not enough, where the friction over it is beyond the model."""
+    """A full film is not sufficient if the friction is beyond the model."""
     model, limit = predict(settings).model, 0.0
     ended = BelowZero(0.1, -1e-9, ((0, 0),), 1)
 
@@ -169,7 +169,7 @@ def test_suggested_cut_off_has_a_known_error(settings, monkeypatch):
 
     monkeypatch.setattr(Model, "without_shorter", without_shorter)
     monkeypatch.setattr("pyehl.prediction.breakdown.known", known)
-    # full at every cut-off, known from a limit on
+    # full at every cut-off, predicted from a limit on
     assert advise(model, ended, flat(1e-7)).wavelengths[0] < 3e-4
     limit = 5e-4
     assert advise(model, ended, flat(1e-7)).wavelengths[0] == pytest.approx(5e-4, rel=0.1)
@@ -178,7 +178,7 @@ def test_suggested_cut_off_has_a_known_error(settings, monkeypatch):
 
 
 def test_rough_surfaces_get_no_threshold_of_spikes(settings):
-    """Where the roughness itself is too high there is nothing to take for a spike."""
+    """Where the roughness itself is too high no height is a spike."""
     settings["surface"]["rms_height"] = 1e-6
     ended = predict(settings)
     assert ended.friction.status == "film breakdown"
@@ -188,9 +188,9 @@ def test_rough_surfaces_get_no_threshold_of_spikes(settings):
 
 
 def test_tracks(scan):
-    """Over the map and not over its mirror image; the track moves the surface across the motion."""
+    """Over the map but not over its mirror image; the track shifts the surface across."""
     scan["surface"]["outliers"] = 50.0
-    # as many as tracks other than the first have
+    # the number of tracks other than the first
     scan["psd"]["positions"] = 8
     one = predict(scan, tracks=1)
     assert one.tracks[0] == pytest.approx(one.mu_ratio, rel=1e-12)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Load shares of a boundary film: docs/evidence/contact states what its table has."""
+"""Load shares of a boundary film: the page docs/evidence/contact agrees with its table."""
 
 from pathlib import Path
 
@@ -22,13 +22,13 @@ def text(root: Path) -> str:
 
 
 def test_this_build_makes_the_stored_shares(evidence):
-    """On the coarsest grid, where the inlet is not resolved and everything touches."""
+    """On the coarsest grid, which does not resolve the inlet, so that all nodes touch."""
     row = evidence.read()[0]
     run = {"contact": row["contact"], "boundary_film": float(row["boundary_film"]), "points": 65}
     result = evidence.simulated(run)
     for name in ("contact_load_share", "contact_area_share", "mass_defect"):
         assert result[name] == pytest.approx(float(row[name]), rel=1e-6), name
-    # friction over that of a smooth contact that touches because of the grid
+    # friction relative to a smooth contact that touches because of the grid
     assert result["mu"] is None
 
 
@@ -46,7 +46,7 @@ def dry(script):
     ],
 )
 def test_rough_balls_at_vanishing_speed(dry, surface):
-    """Area and pressure of the dry solver within 3 %; of tile 8, with streaks, the pressure."""
+    """Area and pressure of the dry solver within 3 %; only the pressure of tile 8, with streaks."""
     result = dry.simulated(surface, 129)
     assert abs(dry.area_off(result)) < 0.03 or surface == "tile 8"
     assert result["rms"] < 0.03

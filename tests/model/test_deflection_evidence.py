@@ -19,7 +19,7 @@ def test_this_build_makes_the_stored_errors(evidence):
         result = evidence.row(points, accuracy)
         for name in evidence.NAMES[:4]:
             assert result[name] == stored[name], (points, accuracy, name)
-        # rounding is a part of the error of interpolation with 16 points
+        # rounding is a part of the interpolation error with 16 points
         for name in ("accuracy", "error", "discretisation", "inside"):
             assert result[name] == pytest.approx(stored[name], rel=1e-3, abs=1e-13), (points, name)
 

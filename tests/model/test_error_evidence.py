@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pages on stated errors, time steps and fields say what their tables hold."""
+"""Pages on stated errors, time steps and fields agree with their tables."""
 
 import csv
 import re
@@ -18,7 +18,7 @@ Row = dict[str, Any]
 
 @pytest.fixture
 def beside(root: Path, script, monkeypatch) -> Iterator[Callable[[str, str], ModuleType]]:
-    """Import a script of an evidence folder that imports others of the folder, by their names."""
+    """Import a script of an evidence folder that imports others of the folder by name."""
     before = set(sys.modules)
 
     def load(folder: str, name: str) -> ModuleType:
@@ -33,12 +33,12 @@ def beside(root: Path, script, monkeypatch) -> Iterator[Callable[[str, str], Mod
 
 
 def page(root: Path, name: str) -> str:
-    """Text of an evidence page on one line a paragraph."""
+    """Text of an evidence page, one line per paragraph."""
     return plain(root / "docs" / "evidence" / name / "README.md")
 
 
 def test_estimate_of_the_domain(root: Path, beside):
-    """What `fit.py` states of the contacts that the estimate was fitted to."""
+    """Statements of `fit.py` about the contacts to which the estimate was fitted."""
     fit, text = beside("errors", "fit"), page(root, "errors")
     flooded, zero = (fit.shares_covered(border, "H_c") for border in ("flooded", "zero"))
     covered = [f"{x.size} | {100.0 * np.mean(x <= 1.0):.1f} %" for x in (flooded, zero)]
@@ -69,7 +69,7 @@ def test_cells_of_ellipses(root: Path, script):
 
 
 def test_waves_beside_the_centre_line_on_the_page(root: Path, beside):
-    """T at Y = 0.5 and 0.625 beside what is measured there."""
+    """T at Y = 0.5 and 0.625 against the measured one."""
     folder = root / "docs" / "evidence" / "response"
     off = beside("response", "off_centre")
     table = np.loadtxt(folder / "off_centre.csv", delimiter=",", skiprows=1)

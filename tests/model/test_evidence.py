@@ -60,7 +60,7 @@ def test_table_is_what_is_predicted(evidence, table, name):
 
 @pytest.mark.long
 def test_load_is_kept_in_rings(evidence, table, monkeypatch):
-    """One ring over the whole contact would lower the friction, more where the film is thin."""
+    """One ring over the whole contact would lower the friction, more so in thin films."""
     compare, _ = evidence
     rows = {row["name"]: row for row in compare.rows()}
     monkeypatch.setattr(rough_contact, "RINGS", np.zeros(1))
@@ -100,7 +100,7 @@ def test_stated_error_covers_nine_of_ten(table):
 
 @pytest.mark.long
 def test_page_of_the_theory_prints_the_bands(root: Path):
-    """What each octave adds without slip and with 1 %, and what is below and above a/16."""
+    """Contributions of each octave without slip and with 1 %, and those below and above a/16."""
     text = plain(root / "docs" / "theory" / "prediction-compared.md")
     shown = re.findall(r"^\| \d+ to \d+ \| (\S+) \((\S+)\) \| (\S+) \((\S+)\) \|$", text, re.M)
     table = [[float(word) for word in line] for line in shown]
@@ -118,7 +118,7 @@ def test_page_of_the_theory_prints_the_bands(root: Path):
 
 
 def test_pressure_of_ridges(root: Path):
-    """docs/evidence/response: its excess over K (1 - T) in the simulation and in the response."""
+    """docs/evidence/response: excess over K (1 - T), in the simulation and in the response."""
     folder = root / "docs" / "evidence" / "response"
     heavy, light, lost, gains = [], [], [], []
     with (folder / "ridges.csv").open(newline="", encoding="utf-8") as stream:

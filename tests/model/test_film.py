@@ -24,9 +24,9 @@ def test_nijenbanning_venner_moes_against_converged_solutions(row):
 def test_nijenbanning_asymptotes():
     low, high = 1e6, 1e8
     stiff = [film.nijenbanning_venner_moes(m, 0.0) * (1.5 * m) ** (2 / 3) for m in (low, high)]
-    # isoviscous elastic: proportional to M^(-2/15)
+    # isoviscous-elastic: proportional to M^(-2/15)
     assert stiff[1] / stiff[0] == pytest.approx((high / low) ** (-2 / 15), rel=1e-3)
-    # piezoviscous elastic at large L: proportional to L^(3/4)
+    # piezoviscous-elastic at large L: proportional to L^(3/4)
     thick = [film.nijenbanning_venner_moes(1e10, ell) for ell in (1e3, 2e3)]
     assert thick[1] / thick[0] == pytest.approx(2**0.75, rel=2e-3)
 
@@ -77,7 +77,7 @@ def test_sheet_from_moes_numbers_and_smooth():
 
 
 def test_columns_of_the_sheet_do_not_touch_at_a_low_load():
-    """M = 0.05: H_c is five figures long before its point."""
+    """M = 0.05: H_c has five digits before its decimal point."""
     values = film_formulas.sheet(pyehl.Case(contact={"moes_m": 0.05, "moes_l": 5.0}).resolve())
     line = next(text for text in report(values).splitlines() if "Brewe" in text)
     h_c, h_min, reduced, reduced_min = map(float, line.split()[2:6])
@@ -87,7 +87,7 @@ def test_columns_of_the_sheet_do_not_touch_at_a_low_load():
 
 
 def test_ellipses():
-    """The accuracies are known for circles; of a turned ellipse only the dry contact is given."""
+    """The accuracies are known for circles; at an angle only the dry contact is given."""
     ellipse = {"contact.load": 50.0, "contact.radius_x": 0.01, "contact.radius_y": 0.03}
     straight, turned = (
         film_formulas.sheet(Case.from_text("", ellipse | {"contact.angle": angle}).resolve())

@@ -53,7 +53,7 @@ def test_the_form_of_a_ball_is_reported_with_its_key(centre):
     made = prepare(scan(z), Options(detrend="curvature"))
     assert made.record.findings == ()
     assert made.prepared.std() == pytest.approx(2e-8, rel=0.1)
-    # an array is taken as it is, and reported
+    # an array is not levelled, and the tilt is reported
     kinds = [f.remedy for f in found_in_array(z)]
     assert kinds[0].startswith("surface.detrend=")
 
@@ -111,7 +111,7 @@ def test_lines_are_aligned_around_what_is_missing():
     there = np.isfinite(holed)
     assert not there[5, 10]
     assert not there[:, 40].any()
-    # a line in part by its own part; the plane of offsets is that of the map
+    # a line with missing points is aligned by the others; the plane of offsets is that of the map
     rest = np.delete(np.arange(N), [10, 40])
     apart = (holed - straight)[-1]
     assert np.std((holed - straight)[:, rest], axis=0) == pytest.approx(0.0, abs=1e-16)
@@ -133,7 +133,7 @@ def test_a_stitching_step_is_found_with_its_place(axis):
     assert finding.remedy == f"surface.crop_{name}_max=0.0003"
     assert len(finding.places) == 4
     assert found(z, Options(crop=(0, 3e-4, 0, 0) if axis == 0 else (0, 0, 0, 3e-4))) == ()
-    # places are those of the map as read
+    # positions are those of the map as read
     crop = (1e-4, 0, 0, 0) if axis == 0 else (0, 0, 1e-4, 0)
     (again,) = found(z, Options(crop=crop))
     assert f"at {name} = 0.3 mm" in again.text
@@ -162,7 +162,7 @@ def test_dust_of_several_pixels_is_found():
     made = prepare(scan(z), Options(outliers=6.0))
     assert made.record.findings == ()
     steps = {step.name: step for step in made.steps}
-    # with margins of a pixel
+    # with margins of one pixel
     assert steps["outliers"].changed == 6 * 6 + 5 * 5
     assert made.prepared.std() == pytest.approx(prepare(scan(rough())).prepared.std(), rel=0.02)
 
@@ -200,7 +200,7 @@ def thin_film(x, y):
 
 
 def test_findings_are_reported_predicted_and_drawn(tmp_path, capsys):
-    """A ball without levelling: removal of the form is proposed, and no cut-off."""
+    """A ball without levelling: removal of the form is suggested, and no cut-off."""
     path = tmp_path / "ball.npy"
     np.save(path, rough() + ball((0.5, 0.5)))
     size = {"surface.length_x": N * PIXEL, "surface.length_y": N * PIXEL}

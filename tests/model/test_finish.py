@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Surfaces by Ra, Rq or a finish: the height, the lay, and how much the spectrum matters."""
+"""Surfaces by Ra, Rq or a finish: height, lay, and effect of the assumed spectrum."""
 
 import json
 import math
@@ -57,14 +57,14 @@ def test_a_finish_sets_the_missing_keys():
     heights = [resolved(f"finish='{f}'")["rms_height"]
                for f in ("ground", "honed", "superfinished", "polished")]  # fmt: skip
     assert heights == sorted(heights, reverse=True)
-    # a written case is the same case, and another finish changes what follows
+    # a written case is the same case, and another finish changes derived values
     case = pyehl.Case.from_text("&surface finish='ground' /")
     assert pyehl.Case.from_text(case.text).resolve() == case.resolve()
     assert case.with_options({"surface.finish": "polished"}).resolve()["surface"]["hurst"] == 0.8
 
 
 def test_cells_of_a_finish_are_those_of_its_fractal_surface():
-    """A wide smooth contact has cells longer across the motion, which waves do not allow."""
+    """A wide smooth contact has cells that are longer across the motion, too long for waves."""
     wide = {"contact.radius_x": 0.01, "contact.radius_y": 0.3, "contact.load": 300.0}
     rows = [
         pyehl.Case.from_text("", wide | keys)["grid"]["points_y"]

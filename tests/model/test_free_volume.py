@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Viscosity by Doolittle's free volume, density by Tait: the formulas, and one law everywhere."""
+"""Viscosity by Doolittle's free volume, density by Tait: formulas, and one law everywhere."""
 
 import json
 import math
@@ -17,7 +17,7 @@ from pyehl.theory.oils import reciprocal_isoviscous
 
 Array = NDArray[np.float64]
 
-# No oil in particular: numbers like those of mineral oils
+# No particular oil: numbers like those of mineral oils
 ETA, T_R, B, R0, EPS = 0.02, 40.0, 4.5, 0.66, -7.5e-4
 K00, RATE, BETA, A_V = 9e9, 11.0, 6e-3, 8e-4
 OIL = {
@@ -70,7 +70,7 @@ def test_laws_are_their_formulas(temperature: float):
 
 @TEMPERATURES
 def test_coefficients_follow(temperature: float):
-    """Alpha in closed form, the fall with temperature, and alpha* by an integral of scipy."""
+    """Alpha in closed form, the decrease with temperature, and alpha* by an integral of scipy."""
     oil = of_case(OIL, {"lubricant.temperature": temperature})
     occupied, whole = 1.0 + EPS * (temperature - T_R), 1.0 + A_V * (temperature - T_R)
     alpha = B * R0 * occupied * whole / modulus(temperature) / (whole - R0 * occupied) ** 2
@@ -83,7 +83,7 @@ def test_coefficients_follow(temperature: float):
 
 
 def test_reference_temperature_does_not_matter():
-    """The volume by another T_R, with K0 unchanged and a_V over the volume there."""
+    """The volume for another T_R, with K0 unchanged and a_V over the volume there."""
     other = {
         "lubricant.tait_temperature": T_R - 25.0,
         "lubricant.tait_expansion": A_V / (1.0 - 25.0 * A_V),
@@ -101,7 +101,7 @@ def test_reference_temperature_does_not_matter():
 
 
 def test_an_oil_without_free_volume_is_refused():
-    """No volume is free above 1.15 GPa: the default contact comes there, a light one does not."""
+    """Above 1.15 GPa there is no free volume: the default contact reaches it, a light one not."""
     thick = {**OIL, "lubricant.doolittle_r0": 0.8, "lubricant.doolittle_b": 1.0}
     assert not np.isfinite(of_case(thick, {"contact.load": 1.0}).log_viscosity_ratio(5e9))
     with pytest.raises(InputError, match="no viscosity that increases with pressure"):
@@ -125,14 +125,14 @@ def test_a_written_case_reads_back():
     assert warm.resolve()["lubricant"]["viscosity"] == pytest.approx(
         float(viscosity(0.0, 70.0)), rel=1e-12
     )
-    # an option takes the default along
+    # an option keeps the default
     law = Case.from_text(Case.from_text("", OIL).text, {"lubricant.viscosity_law": "roelands"})
     assert law.resolve()["lubricant"]["density_law"] == "dowson-higginson"
 
 
 @pytest.fixture
 def table(tmp_path: Path) -> Path:
-    """The viscosities of the law at 60 degC, dense enough to be taken for it."""
+    """The viscosities of the law at 60 degC, with points dense enough to represent it."""
     path = tmp_path / "oil.csv"
     p = 2e9 * np.linspace(0.0, 1.0, 400) ** 1.5
     states = zip(p.tolist(), viscosity(p, 60.0).tolist(), strict=True)
@@ -157,7 +157,7 @@ def test_film_friction_and_prediction_obey_the_law(table: Path):
     volume_alone = {key: value for key, value in OIL.items() if "tait" in key}
     tabulated = {**volume_alone, "lubricant.table": str(table), "lubricant.density_law": "tait"}
     rough = {"surface.kind": "fractal", "surface.pixels": 64, "surface.rms_height": 1e-8}
-    # the smooth contact is solved beside it
+    # the smooth contact is solved for the prediction
     rough["psd.smooth"] = "hertz"
     runs = []
     for law in (OIL, tabulated):
@@ -176,7 +176,7 @@ def test_film_friction_and_prediction_obey_the_law(table: Path):
 
 
 def test_compression_thins_the_film():
-    """A film of a liquid that is pressed together is thinner by its density."""
+    """A film of a compressed liquid is thinner by the ratio of densities."""
     solved, formula = {}, {}
     for law in ("tait", "incompressible"):
         case = Case.from_text("", {**OIL, **CONTACT, "lubricant.density_law": law})
@@ -185,7 +185,7 @@ def test_compression_thins_the_film():
         formula[law] = film["formulas"][0]["h_c_m"]
     inlet, pressed = volume(np.array([1.5e8, film["hertz_pressure_Pa"]]), 60.0) / volume(0.0, 60.0)
     assert formula["tait"] / formula["incompressible"] == pytest.approx(pressed, rel=1e-9)
-    # the flow through the contact is settled in the inlet, where the oil is denser already
+    # the inlet determines the flow through the contact, where the oil is denser already
     assert pressed < solved["tait"] / solved["incompressible"] < pressed / inlet
 
 
@@ -201,6 +201,6 @@ def test_both_programs_take_the_law(drivers: dict[str, list[str]], tmp_path: Pat
         summary = json.loads((folder / "summary.json").read_text())
         result.append((summary["H_c"], summary["mu"]))
     assert result[0] == result[1]
-    # the last is that of pyehl, which states what holds of the lubricant
+    # the last is the summary of pyehl, with the limits of the lubricant
     assert "doolittle viscosity at 60.0 degC" in summary["lubricant_note"]
     assert "the pressure is above it" in summary["lubricant_note"]

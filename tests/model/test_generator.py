@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The generator of fractal surfaces and the cut of spectra, against numpy and closed forms."""
+"""The generator of fractal surfaces and the spectral cut-off, against numpy and closed forms."""
 
 import math
 
@@ -73,7 +73,7 @@ def tile(seed: int = 3, pixels: tuple[int, int] = (48, 35)) -> Topography:
 
 
 def transmitted(before: Topography, after: Topography) -> tuple[np.ndarray, np.ndarray]:
-    """Wavelength of each component [m], and the share of its amplitude that passed."""
+    """Wavelength of each component [m], and the ratio of its amplitudes."""
     qx, qy = surfaces.wavenumbers(before)
     a, b = (np.fft.rfft2(tile.heights) for tile in (before, after))
     q = np.hypot(qx, qy)
@@ -93,7 +93,7 @@ def test_sharp_cut(shortest: float, longest: float):
     if longest:
         inside &= wavelength <= longest
     assert 0 < inside.sum() < inside.size
-    # rounding of two transforms, against components of order one in 1e-2
+    # rounding of two transforms, relative to components of order one in 1e-2
     assert np.abs(share - inside).max() < 1e-11
 
 
@@ -116,7 +116,7 @@ def test_half_passes_at_the_cut_off():
     for limits in ((2.5e-4, 0.0), (0.0, 2.5e-4)):
         after = surfaces.filtered(wave, *limits, "gaussian")
         assert after.heights == pytest.approx(0.5 * wave.heights, abs=1e-14)
-        # of a sharp filter all of it
+        # all of the difference for a sharp filter
         assert surfaces.filtered(wave, *limits).heights == pytest.approx(wave.heights, abs=1e-14)
 
 

@@ -75,7 +75,7 @@ def test_thermal_reduction_in_formula_prediction_and_solver():
     assert 0.7 < share < 0.99
     assert point.thermal_reduction == share
     lubricant = Lubricant.from_settings(warm)
-    assert lubricant.viscosity == oil["viscosity"]  # in the contact nothing is warmer
+    assert lubricant.viscosity == oil["viscosity"]  # no heating in the contact
     ratio = central_film(point, lubricant) / central_film(isothermal, lubricant)
     assert ratio == pytest.approx(share, rel=1e-12)
     assert sheet(warm)["formulas"][0]["h_c_m"] == central_film(point, lubricant)
@@ -107,7 +107,7 @@ def test_flash_temperature_limits():
     # at rest: 3 pi/8 q a/k for each surface under all the heat (the potential of a semi-ellipse)
     rest = flash_temperature(q, a, (0.0, 0.0), (k, k), (kappa, kappa))
     assert rest == pytest.approx(3 * math.pi / 16 * q * a / k, rel=2e-3)
-    # fast: heat flows straight down, along the line through the centre
+    # fast: heat flows straight down on the centre line
     s = np.linspace(0.0, 1.0, 201)[:, np.newaxis]
     v = (np.arange(2000) + 0.5) / 2000 * np.sqrt(1.0 + s)
     root = np.sqrt(np.maximum(0.0, 1.0 - (s - v**2) ** 2))
@@ -147,7 +147,7 @@ def max_increase(kappa: float, peclet: float) -> float:
 @pytest.mark.parametrize("peclet", [0.0, 2.0, 20.0])
 @pytest.mark.parametrize(("kappa", "near"), [(0.1, 0.06), (0.4, 0.03), (1.0, 0.012), (4.0, 0.06)])
 def test_flash_temperature_of_ellipses(kappa, near, peclet):
-    """The maximum increase of one surface of an ellipse, by sources that move; at rest exactly."""
+    """The maximum increase of one surface, by moving sources; exact at zero velocity."""
     square = kappa**2
     ratio = elliprd(0.0, 1.0, square) / elliprd(0.0, square, 1.0) if kappa != 1.0 else 1.0
     shape = ellipse(float(ratio))
@@ -167,7 +167,7 @@ def test_absolute_friction_of_the_solver():
         assert solver.run()
         s = solver.summary
     point = OperatingPoint(slide_to_roll=-2.0)
-    # tau -> tau_L = 0.06 p: the whole load is on the fluid pressure, p = 0 outside apart
+    # tau -> tau_L = 0.06 p: the fluid carries the whole load, apart from p = 0 outside
     assert s["mu"] == s["mu_smooth"] == pytest.approx(0.06, rel=1e-2)
     assert s["mu"] < 0.06
     assert s["shear_stress_max_Pa"] == pytest.approx(0.06 * s["p_max_Pa"], rel=1e-6)
@@ -194,7 +194,7 @@ def test_eyring_friction_of_table_1():
     oil = Lubricant(shear=ShearLaw("eyring"))
     uniform = predict_friction(flat, OperatingPoint(), oil, s["h_c_m"])
     assert s["mu"] == pytest.approx(uniform.mu_smooth, rel=0.02)
-    # 0.1 m/s of sliding would heat by some ten kelvin, 0.017 m/s does not
+    # 0.1 m/s of sliding heats by some ten kelvin, 0.017 m/s does not
     assert 0.5 < s["flash_temperature_K"] < 3.0
 
 
@@ -215,7 +215,7 @@ def test_a_missing_coefficient_is_explained(options, words):
 
 
 def test_a_newtonian_coefficient_where_pressure_is_low():
-    """Water-thin oil under little load: the stress stays below that of shear thinning."""
+    """An oil as thin as water at low load: the stress is below that of shear thinning."""
     keys = {
         "contact.load": 1.0,
         "contact.reduced_modulus": 1e9,
@@ -232,7 +232,7 @@ def test_a_newtonian_coefficient_where_pressure_is_low():
 
 
 def test_absolute_friction_of_a_uniform_film():
-    """The prediction's record: Newtonian where it means something, a ratio alone elsewhere."""
+    """Coefficient and flash temperature with a shear law; without one, only the ratio."""
     point = OperatingPoint(slide_to_roll=0.5)
     law = Lubricant(shear=ShearLaw("eyring"))
     s = absolute_friction(point, law, film=2e-7, mu_smooth=0.05, mu_ratio=1.2)
@@ -249,8 +249,8 @@ def test_absolute_friction_of_a_uniform_film():
 
 
 def test_prediction_and_film_sheet_state_the_inlet_heating():
-    """Film, coefficients and the heat of both, in the summary and in print."""
-    # the film of the paper's model is that of the formula, to which the reduction is exact
+    """Film, coefficients and the inlet heating of both, in the summary and in print."""
+    # the film of the paper's model is that of the formula, to which the reduction applies exactly
     surface = ["surface.kind=fractal", "surface.pixels=64", "psd.smooth=hertz"]
     warm = predict(resolved(more="thermal_reduction = T", options=surface))
     cold = predict(resolved(options=surface))

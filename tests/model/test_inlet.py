@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Waves in the inlet by the linearised Reynolds equation, and what goes by them."""
+"""Waves in the inlet by the linearised Reynolds equation, and quantities that depend on them."""
 
 from dataclasses import replace
 
@@ -44,7 +44,7 @@ def test_a_uniform_wave_deflects_as_on_the_half_space(zone: Zone):
 
 
 def test_a_narrow_ellipse_deflects_as_a_strip_of_its_width(zone: Zone):
-    """The transform of K_0, and the stiffness of the ellipse; 20 % from those of a circle."""
+    """The transform of K_0, and the stiffness of the ellipse; within 20 % of a circle's."""
     narrow = replace(zone, ellipticity=0.05, stiffness=1.3)
     x = np.arange(START, END + 0.5 * SPACING, SPACING)
     qx, qy = np.array([15.0, 20.0]), np.array([0.0, 5.0])
@@ -55,9 +55,9 @@ def test_a_narrow_ellipse_deflects_as_a_strip_of_its_width(zone: Zone):
 
 @pytest.mark.parametrize("width", [0.3, 1.0, np.inf])
 def test_flattening_by_one_cell(zone: Zone, width: float):
-    """The integral of K_0 over a cell near and far, of waves along and across; any width of a line.
+    """The integral of K_0 over a cell near and far, of waves along and across; lines of any width.
 
-    What goes on behind the last node is left out.
+    The part behind the last node is omitted.
     """
     x = np.arange(START, END + 0.5 * SPACING, SPACING)
     qx, qy = np.array([0.0, 20.0, 90.0]), np.array([3.0, 0.0, 40.0])
@@ -74,12 +74,12 @@ def test_flattening_by_one_cell(zone: Zone, width: float):
             for part in (np.cos, np.sin)
         ]
         expected = 4.0 / np.pi**2 / zone.stiffness * complex(*parts)
-        # K_0 beside 0 is taken without its square
+        # K_0 next to 0 is used without its square
         assert result[m, i, j] == pytest.approx(expected, rel=2e-2 if i == j else 1e-4)
 
 
 def test_convection_is_exact_for_polynomials_on_a_wave():
-    """Of third degree inside, of second at the last node, of first behind the start."""
+    """For third degree inside, second degree at the last node, first degree behind the start."""
     n, h, slip = 12, 0.1, np.array([0.0, 3.0])
     x = h * np.arange(n)
     operator = convected_by(n, h, slip)
@@ -153,7 +153,7 @@ def test_a_law_without_thinning_changes_nothing(zone: Zone):
     ],
 )
 def test_measured_waves_beyond_the_slip_of_the_fit(evidence, moes, count, largest):
-    """T at X = 0 in slip.csv: its largest deviation, and that the prediction is of this package."""
+    """T at X = 0 in slip.csv: its largest deviation; the prediction is that of this package."""
     slip = evidence("response", "slip")
     rows = slip.read()
     rows = rows[(rows[:, :2] == moes).all(1)]

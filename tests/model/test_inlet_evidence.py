@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contacts that touch on grids that do not resolve their inlet: docs/evidence/inlet."""
+"""Contact on grids that do not resolve the inlet: docs/evidence/inlet."""
 
 from itertools import islice
 from pathlib import Path

@@ -45,7 +45,7 @@ def table(tmp_path: Path) -> Path:
 
 @pytest.mark.parametrize("temperature", [20.0, 40.0, 60.0])
 def test_fva3_is_that_of_its_source(temperature: float):
-    """Table A1 of Wingertszahn et al. 2023 put into their eqs. 7 and 8, in bar and mPa s."""
+    """Table A1 of Wingertszahn et al. 2023 in their eqs. 7 and 8, in bar and mPa s."""
     oil = Lubricant.from_name("fva3", temperature)
     assert oil.viscosity == pytest.approx(
         1e-3 * 0.062 * math.exp(1021.7 / (temperature + 101.5517)), rel=1e-12
@@ -68,7 +68,7 @@ def test_fva3_is_that_of_its_source(temperature: float):
 def test_oils_of_mann(
     name: str, a1: float, a2: float, b1: float, b2: float, at_40: float, at_100: float
 ):
-    """Tables 2 and 3 of Arana et al. 2019, whose theta is in K; density by the data sheet."""
+    """Tables 2 and 3 of Arana et al. 2019, with theta in K; density by the data sheet."""
     density = {c.key: c.value for c in known_oils()[name].constants}["density_15"]
     for temperature, kinematic in ((40.0, at_40), (100.0, at_100)):
         oil = Lubricant.from_name(name, temperature)
@@ -98,7 +98,7 @@ def test_every_oil_has_sources_and_runs():
 
 
 def test_films_by_two_laws_with_one_alpha(root: Path):
-    """FVA 3 by its own law and by Roelands', as the page of the theory states."""
+    """FVA 3 by its own law and by Roelands', as the theory page states."""
     own = Case.from_text("", {"lubricant.name": "fva3", "lubricant.temperature": 40.0})
     known = own.resolve()["lubricant"]
     names = ("viscosity", "pressure_viscosity", "density_law")
@@ -119,7 +119,7 @@ def exponent(oil: Lubricant) -> float:
 
 
 def test_band_of_a_coefficient_that_was_not_given(root: Path):
-    """The exponents of the oils by name are what the note and the how-to say."""
+    """The exponents of the oils by name are those in the note and the how-to."""
     cold, hot = (
         {name: exponent(Lubricant.from_name(name, t)) for name in pyehl.lubricants()}
         for t in (40.0, 100.0)
@@ -148,7 +148,7 @@ def test_coefficient_of_a_data_sheet_is_that_of_roelands(temperature: float):
     alpha = MINERAL_Z * (math.log(lubricant["viscosity"]) + 9.67) / 1.96e8
     assert lubricant["pressure_viscosity"] == pytest.approx(alpha, rel=1e-12)
     assert lubricant["roelands_z"] == pytest.approx(MINERAL_Z, rel=1e-12)
-    # written out and read again it follows still
+    # a written case derives it again
     again = Case.from_text(case.text, ["lubricant.roelands_z=0.7"]).resolve()
     assert again["lubricant"]["pressure_viscosity"] == pytest.approx(alpha * 0.7 / 0.6, rel=1e-12)
 
@@ -177,7 +177,7 @@ def test_a_coefficient_that_was_not_given_is_named(
 
 
 def test_slopes_at_the_inlet_follow_from_the_law(table: Path):
-    """Alpha and beta are the slopes of ln eta, and without a rise there is no other viscosity."""
+    """Alpha and beta are the slopes of ln eta; with zero rise the viscosity is unchanged."""
     for oil in (
         Lubricant.from_name("fva3", 60.0),
         of_case(T9, {"lubricant.temperature": 60.0}),
@@ -192,7 +192,7 @@ def test_slopes_at_the_inlet_follow_from_the_law(table: Path):
 
 
 def test_viscosity_at_another_inlet_temperature():
-    """The rise of temperature from one inlet to another gives the viscosity of that other one."""
+    """The temperature rise between two inlets gives the viscosity of the other one."""
     cold, warm = Lubricant.from_name("fva3", 40.0), Lubricant.from_name("fva3", 75.0)
     p = np.array([0.0, 3e8, 1e9])
     there = cold.viscosity * cold.viscosity_ratio(p, 35.0)
@@ -202,7 +202,7 @@ def test_viscosity_at_another_inlet_temperature():
 
 
 def test_alpha_star_and_alpha_film(root: Path):
-    """Barus: all the same; a law whose slope falls: smaller than at ambient pressure."""
+    """Barus: all are equal; for a law with decreasing slope: less than at ambient pressure."""
     barus = Lubricant(viscosity_law="barus", pressure_viscosity=2e-8)
     assert reciprocal_isoviscous(barus) == pytest.approx(2e-8, rel=1e-4)
     assert film_forming(barus) == pytest.approx(2e-8, rel=1e-4)
@@ -268,7 +268,7 @@ def test_a_written_case_of_an_oil_reads_back(table: Path):
         assert Case.from_text(case.text).text == case.text
         if single.name in case.text:
             continue
-        # another temperature is another viscosity: what follows is not given
+        # another temperature gives another viscosity: derived values are not given
         warm = Case.from_text(case.text, {"lubricant.temperature": 70.0}).resolve()
         assert warm["lubricant"]["viscosity"] < 0.7 * case.resolve()["lubricant"]["viscosity"]
 
@@ -300,7 +300,7 @@ def test_a_table_begins_at_ambient_pressure(table: Path):
 
 
 def test_a_range_of_pressures_without_one_of_temperatures():
-    """Of the temperatures nothing is known, and nothing is stated."""
+    """For the temperatures no range is known, and none is stated."""
     note = str(pyehl.check(Case.from_text(""), T9, {"lubricant.range_pressure_max": 1e9}))
     assert "measured up to 1.000E+09 Pa" in note
     assert "degC and up" not in note
@@ -309,7 +309,7 @@ def test_a_range_of_pressures_without_one_of_temperatures():
 
 @pytest.mark.parametrize(("speed", "srr"), [(2.0, 2.0), (5.0, 1.0), (40.0, 0.3)])
 def test_heat_is_included_where_its_estimate_is_implausible(speed: float, srr: float):
-    """The flash temperature by the isothermal stress is beyond 1500 degC, that of the film not."""
+    """The flash temperature by the isothermal stress is above 1500 degC, that with heat is not."""
     contact = {"load": 600.0, "mean_velocity": speed, "radius": 0.018, "slide_to_roll": srr}
     done = pyehl.solve(
         Case(
@@ -324,7 +324,7 @@ def test_heat_is_included_where_its_estimate_is_implausible(speed: float, srr: f
 
 
 def test_film_of_an_oil_is_near_that_of_roelands_with_its_alpha():
-    """M and L take alpha at ambient pressure, for every law: films differ by some per cent."""
+    """M and L use alpha at ambient pressure, for every law: films differ by some per cent."""
     films = [
         pyehl.solve(
             Case.from_text(""),
@@ -356,7 +356,7 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     assert "Wingertszahn" in printed
     assert "alpha = 22.36/GPa" in printed
     assert [path.name for path in (tmp_path / "oils").iterdir()] == ["fva3.png"]
-    # a picture of its own is replaced, another file is not
+    # a picture of the command is replaced, another file is not
     assert cli.main(["lubricants", "fva3", "-o", str(tmp_path / "oils")]) == 0
     (tmp_path / "oils" / "n100.png").write_bytes(b"mine")
     assert cli.main(["lubricants", "-o", str(tmp_path / "oils")]) == 2

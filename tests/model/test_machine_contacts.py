@@ -24,7 +24,7 @@ def test_mean_friction_of_a_constant_coefficient():
     power = np.trapezoid(0.05 * sliding, table["s_m"]) / s["base_pitch_m"]
     assert power / (s["loss_factor"] * s["input_power_W"]) == pytest.approx(0.05)
     assert table["mu"].min() < s["mu_mean"] < table["mu"].max()
-    # H_V of Ohlendorf for a load shared equally: pi (u+1)/(z1 u cos(beta)) (1 - eps + e1^2 + e2^2)
+    # H_V of Ohlendorf for equal load sharing: pi (u+1)/(z1 u cos(beta)) (1 - eps + e1^2 + e2^2)
     equal = gear(FZG, OIL, {"spur_gear.load_sharing": "equal"}).summary
     pitch = equal["base_pitch_m"]
     _, pair = made(FZG)
@@ -34,7 +34,7 @@ def test_mean_friction_of_a_constant_coefficient():
 
 
 def test_friction_of_lines_and_ellipses():
-    """Without heat: tau_0 asinh(eta u/(h tau_0)) over the mean pressure, integrated elsewhere."""
+    """Without heat: tau_0 asinh(eta u/(h tau_0)) over the mean pressure, integrated by SciPy."""
     options = {**FZG, **OIL, "lubricant.thermal_friction": "never"}
     for crowning, weight in ((0.0, 0.0), (3e-4, 1.0)):
         result = gear(options, {"spur_gear.crowning_1": crowning})
@@ -47,7 +47,7 @@ def test_friction_of_lines_and_ellipses():
         stress = 6e6 * np.arcsinh(newton / 6e6)
         ratio = np.average(stress, weights=r**weight) / np.average(pressure, weights=r**weight)
         assert row["mu"] == pytest.approx(ratio, rel=1e-4)
-    # the heat takes friction away
+    # heating reduces the friction
     warm = gear(FZG, OIL)
     cold = gear(options)
     assert np.all((warm.table["mu"] < cold.table["mu"]) | warm.table["mu"].isna())
@@ -91,21 +91,21 @@ def test_lines_are_solved(root: Path):
 
 
 def test_rollers_of_a_bearing_are_solved_and_predicted():
-    """Of another material: the line has the reduced modulus of the bodies."""
+    """Bodies of another material: the line has their reduced modulus."""
     hybrid = {"bodies.modulus_1": 3.1e11, "bodies.poisson_1": 0.26}
     rollers = bearing(ROLLERS, hybrid, run="solve", jobs=1).table
     by_formula = bearing(ROLLERS, hybrid).table
     assert rollers["hertz_pressure_Pa"].to_numpy() == pytest.approx(by_formula["hertz_pressure_Pa"])
     steel = bearing(ROLLERS).table
     assert (by_formula["hertz_pressure_Pa"] > 1.05 * steel["hertz_pressure_Pa"]).all()
-    # a prediction has the roughness on lines, too
+    # a prediction includes the roughness on lines, too
     rough = {
         "surface.kind": "fractal",
         "surface.rms_height": 2e-8,
         "surface.pixels": 64,
         "grid.points": 257,
         "psd.positions": 2,
-        # as much load on a roller, and fewer of them
+        # the same load per roller, and fewer rollers
         "roller_bearing.rollers": 5,
         "roller_bearing.radial_load": 1200.0,
     }
@@ -115,7 +115,7 @@ def test_rollers_of_a_bearing_are_solved_and_predicted():
 
 
 def test_rolling_resistance_beside_solved_contacts(root: Path):
-    """Both formulas beside a 6204 with a short and a long inlet, as the page has it."""
+    """Both formulas against a 6204 with a short and a long inlet, as on the page."""
     page = (root / "docs" / "howto" / "bearing.md").read_text()
     case = root / "cases" / "ball_bearing.nml"
     point = pyehl.OperatingPoint.from_settings(pyehl.Case(case).resolve())
@@ -140,7 +140,7 @@ def test_rolling_resistance_beside_solved_contacts(root: Path):
 
 
 def test_trial_of_a_gear_pair():
-    """302 N m, FVA 3 at 60 degC; ellipses of a made-up crown had 229 to 356 nm, 0.036 to 0.043."""
+    """302 N m, FVA 3 at 60 degC; assumed crowns gave 229 to 356 nm and 0.036 to 0.043."""
     result = gear(FZG, OIL, {"spur_gear.torque": 302.0})
     films = result.table["h_c_m"] * 1e9
     assert films.min() > 229.0
@@ -149,11 +149,11 @@ def test_trial_of_a_gear_pair():
 
 
 def test_sliding_in_a_groove():
-    """Limits: an Eyring stress far below the Newtonian one; a spin alone turns with its torque."""
+    """Limits: an Eyring stress far below the Newtonian one; spin has the power of its torque."""
     options = {"lubricant.shear_law": "limiting", "lubricant.limiting_stress": 1e5}
     result = bearing(BALLS, options)
     row = result.table.iloc[0]
-    # a constant stress k: P = k integral of |du|, du = c (y0^2 - y^2) with the y0 that balances
+    # a constant stress k: P = k integral of |du|, du = c (y0^2 - y^2) with the balancing y0
     inner = row["half_width_m"], row["half_width_m"] * row["ellipticity"]
     groove, ball = 0.52 * 9.525e-3, 0.5 * 9.525e-3
     factor = row["mean_velocity_m_per_s"] / row["radius_m"] * 0.25 * (1 / ball + 1 / groove)
@@ -185,7 +185,7 @@ def test_rolling_resistance_of_a_line():
 
 
 def test_solved_contacts_and_resuming(tmp_path: Path):
-    """Formulas and solutions agree; mirrored balls are solved once; a second call runs nothing."""
+    """Formulas and solutions agree; equal balls are solved once; a second call runs nothing."""
     options = [
         BALLS,
         OIL,
@@ -317,7 +317,7 @@ def test_case_files_by_formulas(root: Path, tmp_path: Path, name: str, capfd):
     shown = (folder / "report.html").read_text()
     for word in ("minimum Lambda", "omitted", f"&amp;{group}", "data:image/png"):
         assert word in shown
-    # the page is ours, and goes with the result
+    # the command wrote the page, which is replaced with the result
     assert (
         cli.main([command, str(folder / "machine.nml"), "-o", str(tmp_path / "more"), "--json"])
         == 0
@@ -326,7 +326,7 @@ def test_case_files_by_formulas(root: Path, tmp_path: Path, name: str, capfd):
 
 
 def test_the_path_of_contact_is_a_duty(root: Path, tmp_path: Path):
-    """The table along the path, and a case that runs with it; B and D are steps of the load."""
+    """The table along the path, and a case that runs with it; the load has steps at B and D."""
     folder = tmp_path / "out"
     assert cli.main(["gear", str(root / "cases/fzg_c.nml"), "-q", "-o", str(folder)]) == 0
     table = pd.read_csv(folder / "contacts.csv")
@@ -338,7 +338,7 @@ def test_the_path_of_contact_is_a_duty(root: Path, tmp_path: Path):
         (duty["u1 [m/s]"] - duty["u2 [m/s]"]) / mean, table["slide_to_roll"], atol=1e-9
     )
     np.testing.assert_allclose(duty["load [N/m]"] * 14e-3, table["load_N"], rtol=1e-9)
-    # the contact goes along the line of action with the velocity of the base circle
+    # the contact moves along the line of action with the velocity of the base circle
     path = np.diff(table["s_m"]).sum()
     base = 4.5e-3 * 16 / 2 * math.cos(math.radians(20.0))
     whole = path / (base * 2.0 * math.pi * 1450.0 / 60.0)
@@ -347,7 +347,7 @@ def test_the_path_of_contact_is_a_duty(root: Path, tmp_path: Path):
     np.testing.assert_allclose(case["duty"]["load"], duty["load [N/m]"], rtol=1e-12)
     data = pyehl.solve(case, {"grid.points": 257})
     assert float(data.duty_end_s) == pytest.approx(whole, rel=1e-6)
-    # the minimum film is about that of the stations by formulas
+    # the minimum film is close to that of the stations by formulas
     assert 0.6 < float(data.duty_h_c_min_m) / table["h_c_m"].min() < 1.2
 
 
@@ -374,7 +374,7 @@ def test_prediction_needs_a_rough_surface():
 
 @pytest.mark.parametrize("name", FILES)
 def test_interrupted_before_any_contact(root: Path, name: str):
-    """No film, no friction that needs it, and nothing in their place."""
+    """No film and no friction that needs it, and nothing in their place."""
     path = root / "cases" / f"{name}.nml"
     result = Prepared(path, [], (FILES[name][1],), "solve").result({})
     assert not result.complete
@@ -390,7 +390,7 @@ def test_crown_of_a_nanometre_is_a_line():
 
 
 def test_contradicting_film_formulas_are_noted():
-    """A minimum film above the central one, far beyond the ranges of both formulas, is noted."""
+    """A minimum film above the central one, far outside the ranges of both formulas, is noted."""
     options = {"lubricant.viscosity": 0.004, "ball_bearing.inner_speed": 100.0}
     for load, crossed in ((3000.0, True), (10.0, False)):
         table = bearing(BALLS, options, {"ball_bearing.radial_load": load}).table
@@ -421,7 +421,7 @@ def test_refusals_name_the_key_that_causes_them(root: Path, key: str, value: obj
 
 @pytest.mark.long
 def test_plot_draws_the_folder_of_a_machine(root: Path, tmp_path: Path):
-    """The path of contact and the ring, again; the command may then replace its picture."""
+    """The path of contact and the ring, drawn again; the command may then replace its picture."""
     for kind, name in (("gear", "fzg_c"), ("bearing", "bearing_6206")):
         words = [kind, str(root / "cases" / f"{name}.nml"), "-o", str(tmp_path / kind), "-q"]
         assert cli.main(words) == 0

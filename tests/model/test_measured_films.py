@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measured films of docs/validation.md: pages, tables and profiles agree, and this build."""
+"""Measured films of docs/validation.md: pages, tables, profiles and this build agree."""
 
 import csv
 import runpy

@@ -75,7 +75,7 @@ def test_roelands_by_its_original_form():
 
 
 def test_roelands_under_temperature_by_its_original_form():
-    # (T - 138 K)^-S0 in his form, with beta its slope at ambient pressure
+    # (T - 138 K)^-S0 in Roelands' form, with beta its slope at ambient pressure
     oil, p, rise = Lubricant(temperature=60.0, temperature_viscosity=0.035), 1.2e9, 40.0
     level, above = math.log(oil.viscosity) + 9.67, 60.0 + 273.15 - 138.0
     share = (1 + p / oil.roelands_p0) ** oil.roelands_z

@@ -70,7 +70,7 @@ def one_transfer(spectrum, zone, moes, ratio, **options) -> Transfer:
     ids=["common period", "none"],
 )
 def test_exchange_of_the_two_bodies(length):
-    """Body 1 with one roughness and body 2 with the other, named in either order: the same bits."""
+    """The roughness of body 1 and of body 2, as either group: the same bits."""
     second = SECOND.replace("0.00018", length)
     texts = [SI, SI.replace("load", "rough_surface = 2 load")]
     texts[0] += FIRST.format("surface") + second.format("second_surface")
@@ -97,10 +97,10 @@ def test_smooth_second_surface_changes_nothing():
 
 @pytest.mark.parametrize("ratio", [pytest.param(1.05, marks=pytest.mark.long), 0.8])
 def test_vanishing_second_roughness(contact, ratio):
-    """The points of a pair are others than those of one surface."""
+    """A pair is evaluated at other points than one surface."""
     single, _, _ = run(alone(contact, rough(3), ratio), 0)
     both, _, _ = run(pair(contact, (rough(3), rough(4, 1e-15)), (ratio, 2.0 - ratio)), 0)
-    # 1e-4 at both; at 0.8 the tiles are back at their start after few passages
+    # 1e-4 at both; at 0.8 the tiles return to their start after few passages
     assert both.mu_ratio == pytest.approx(single.mu_ratio, rel=5e-4)
 
 
@@ -119,7 +119,7 @@ def test_two_tiles_without_sliding_are_one(contact):
 
 
 def test_small_waves_are_deformed_as_if_alone(contact):
-    """The leak at an amplitude is of second order."""
+    """The change of the leakage with amplitude is of second order."""
     tiles, ratios = (rough(3, 1e-11), rough(4, 1e-11)), (1.1, 0.9)
     for result, tile, ratio in zip(
         pair(contact, tiles, ratios).responses(), tiles, ratios, strict=True
@@ -130,7 +130,7 @@ def test_small_waves_are_deformed_as_if_alone(contact):
 
 @pytest.mark.long
 def test_increases_of_small_waves_add(contact):
-    """Where they meet in all positions, products of waves of different surfaces have no mean."""
+    """They meet in all positions, and products of waves of different surfaces have no mean."""
     tiles = rough(3, 2e-9), rough(4, 2e-9, 3.1e-4)
     both_rough, _, _ = run(pair(contact, tiles, (1.1, 0.9)), 0)
     each = [run(alone(contact, t, u), 0)[0] for t, u in zip(tiles, (1.1, 0.9), strict=True)]
@@ -139,7 +139,7 @@ def test_increases_of_small_waves_add(contact):
 
 
 def test_cross_terms_of_second_order(contact):
-    """Two surfaces at one velocity have gamma and variance of the sum of their spectra."""
+    """Two surfaces at one velocity have the gain and variance of the sum of their spectra."""
     zone = zone_of(contact, POINT, OIL)
     moes = POINT.moes_m, POINT.moes_l
     tiles = [rough(3), rough(4, 3e-8)]
@@ -151,19 +151,19 @@ def test_cross_terms_of_second_order(contact):
     gain_of_sum, variance_of_sum = single.second.of(of[0] + of[1])
     assert gain == pytest.approx(gain_of_sum, rel=1e-9)
     assert variance == pytest.approx(variance_of_sum, rel=1e-9)
-    # the pairs of one wave of each are most of it where neither is much the larger
+    # unless one wave is much larger, most of it is by pairs of one wave of each surface
     alone_gain, alone_variance = first.second.of(of[0], 0.0 * of[1])
     other_gain, other_variance = first.second.of(0.0 * of[0], of[1])
     own = alone_gain * alone_variance**2 + other_gain * other_variance**2
     cross = gain * variance**2 - own
     assert np.all(cross > 0.5 * own)
-    # in other order the same
+    # the same in the other order
     second = Transfer.of_all([(s, 1.05) for s in spectra[::-1]], zone, moes)[0].second
     assert second.of(*of[::-1])[0] == pytest.approx(gain, rel=1e-12)
 
 
 def test_leak_of_two_surfaces_follows_their_total_amplitude(contact):
-    """Two halves of the power leak as the whole of it does."""
+    """Two halves of the power leak as the whole does."""
     zone, moes = zone_of(contact, POINT, OIL), (POINT.moes_m, POINT.moes_l)
     heights = rough(3, 4e-8).heights / POINT.film_scale
     whole = Spectrum.of(heights, 1.0, 1.0)
@@ -181,13 +181,13 @@ def test_positions():
     assert common_passages((1.0, 1.0), (1.2, 0.8)) == (3, 2)
     assert common_passages((1.0, 1.0), (1.01, 0.99)) is None
     assert common_passages((1.0, 1.0), (2.0, 0.0)) == (1, 0)
-    # along a common period: products that come back have a mean, by where they begin
+    # over a common period: products that recur have a mean, which depends on the start
     q = 2.0 * np.pi
     for ahead in (0.0, 0.2):
         line = RelativePositions((1.1, 0.9), (1.1, 0.9), (0.0, ahead))
         mean = line.short_mean(lambda s: np.cos(q * s[0] / 1.1) * np.cos(q * s[1] / 0.9))
         assert mean == pytest.approx(0.5 * np.cos(q * ahead / 0.9), abs=1e-12)
-    # of all positions: products of different tiles have none
+    # over all positions: products of different tiles have none
     lattice = RelativePositions((1.0, 1.0), (1.01, 0.99), (0.0, 0.3))
     for i, j in ((1, 0), (0, 1), (1, 1), (1, -1), (2, 3), (3, -1)):
         mean = lattice.short_mean(lambda s, i=i, j=j: np.cos(q * (i * s[0] + j * s[1])))
@@ -209,7 +209,7 @@ def test_error_of_the_number_of_positions(contact):
 
 @pytest.mark.parametrize("ahead", [0.1125, 0.3375])
 def test_waves_against_the_full_simulation(ahead):
-    """Waves of one period: the mean depends on where they meet, and so is predicted."""
+    """Waves with one common period: the mean depends on where they meet, as predicted."""
     keys = {
         "contact.moes_m": 200.0, "contact.moes_l": 10.0, "contact.slide_to_roll": 0.2,
         "grid.points": 129, "grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.y_extent": 2.0,
@@ -226,7 +226,7 @@ def test_waves_against_the_full_simulation(ahead):
 
 
 def test_film_between_two_tiles(contact):
-    """Minimum film over all positions: the highest points of a line meet, in a period few."""
+    """Minimum film over all positions: the highest points of a line meet, in a period few do."""
 
     def film(x, y):
         return np.full((x.size, y.size), 1e-7)
@@ -241,7 +241,7 @@ def test_film_between_two_tiles(contact):
     result = of_model(all_positions, heights, film)
     assert result.deepest == pytest.approx(-3e-8, abs=2e-10)
     assert result.pixels == ((10, 3), (40, 3))
-    # tiles as long as their velocities are fast: a pixel of one is met by few of the other
+    # tiles with lengths as their velocities: a pixel of one meets few of the other
     longer = Topography(flat.heights, (1.01 * RADIUS, RADIUS))
     shorter = Topography(flat.heights, (0.99 * RADIUS, RADIUS))
     assert common_passages((1.01, 0.99), (1.01, 0.99)) == (1, 1)
@@ -250,7 +250,7 @@ def test_film_between_two_tiles(contact):
         moved = pair(contact, (longer, shorter), (1.01, 0.99), (-2.5, -2.5 + ahead * 0.99))
         deepest.append(of_model(moved, heights, film).deepest)
     assert min(deepest) == pytest.approx(result.deepest, abs=1e-15)
-    # the others pass each other out of reach
+    # the others do not meet
     assert sum(d > 5e-9 for d in deepest) > 50
 
 
@@ -264,7 +264,7 @@ def breaking(load: float = 120.0) -> str:
 
 @pytest.mark.long
 def test_suggested_cut_off_of_two_surfaces():
-    """The one that breaks the film must go, the other one alone does not help."""
+    """One surface breaks the film: only a cut-off of that one gives a full film."""
     result = pyehl.predict(pyehl.Case.from_text(breaking()))
     assert result.summary["status"] == "film breakdown"
     assert np.isnan(result.mu_ratio)
@@ -299,7 +299,7 @@ def test_beyond_the_linear_response_names_cut_offs(contact):
 
 
 def test_advice_names_the_surfaces_that_it_cuts(contact):
-    """Both where they move as one, the second one where it alone is rough."""
+    """Both if they move together, the second one if only that is rough."""
     both = pair(contact, (rough(3, 9e-8), rough(4, 9e-8)), (1.0, 1.0))
     assert both.merged.surfaces[0].groups == ("surface", "second_surface")
     second = replace(both.surfaces[1], topography=rough(4, 1.2e-7), velocity_ratio=1.1)
@@ -341,7 +341,7 @@ def test_bands_contain_the_waves_of_both(contact):
 
 
 def test_composite_statistics():
-    """Rms height and slope of both together, and the film over them."""
+    """Rms height and slope of the sum of both, and the film over them."""
     keys = {
         "contact.load": 120.0, "contact.slide_to_roll": 1.1,
         "surface.kind": "harmonic", "surface.amplitude": 5e-3, "surface.wavelength": 1.0,
@@ -363,7 +363,7 @@ def test_composite_statistics():
 
 
 def test_surfaces_in_memory():
-    """Arrays in place of both surfaces are predicted as from the case."""
+    """Arrays that replace both surfaces are predicted as those from the case."""
     text = SI + FIRST.format("surface") + SECOND.format("second_surface")
     made = pyehl.predict(pyehl.Case.from_text(text), tracks=1)
     given = pyehl.predict(
@@ -393,7 +393,7 @@ def test_folder(tmp_path, monkeypatch, capsys):
     assert float(data.second_deformed_m.std()) == pytest.approx(summary["second_rms_deformed_m"])
     moved = data.passage_second_shift_m.values / data.passage_shift_m.values.clip(1e-12)
     assert moved[1:] == pytest.approx(1.8 / 2.2)
-    # over the same folder, without the second: its files go
+    # into the same folder, without the second: its files are removed
     words = ["predict", "case.nml", "--tracks", "1", "-o", "out"]
     assert cli.main([*words, "--set", "second_surface.kind=smooth"]) == 0
     assert not list((tmp_path / "out").glob("second_*"))
@@ -410,7 +410,7 @@ def test_model_of_the_paper_takes_one_surface():
     ("slide_to_roll", "seed", "alike"), [(0.0, 1, 1.0), (0.0, None, 0.0), (0.1, 1, math.nan)]
 )
 def test_waves_of_equal_surfaces_that_move_together_add_up(slide_to_roll, seed, alike):
-    """Two of 20 nm are one of 40 nm in pure rolling; the second one has another seed by default."""
+    """Two of 20 nm add up to 40 nm in pure rolling; by default the second one has another seed."""
     keys = "kind = 'fractal' rms_height = 2e-8 pixels = 64"
     second = "" if seed is None else f"seed = {seed}"
     case = pyehl.Case.from_text(

@@ -11,7 +11,7 @@ import pyehl
 
 @pytest.fixture(scope="module")
 def pairs(root: Path):
-    """The modules of the evidence of pairs, and the rows of a table of it by name."""
+    """The modules of the evidence of pairs, and the rows of one of its tables by name."""
     folder = root / "docs" / "evidence" / "pairs"
     with pytest.MonkeyPatch.context() as patch:
         patch.syspath_prepend(str(folder))
@@ -24,7 +24,7 @@ def pairs(root: Path):
 
 @pytest.mark.parametrize("name", ["p05wf", "p20ff", "p30mf", "n10wf"])
 def test_pair_is_still_predicted(pairs, name):
-    """The prediction is the published one within 0.1 %, the simulation within its error."""
+    """The prediction equals the published one within 0.1 %, the simulation within its error."""
     cases, compare = pairs
     (row,) = (row for row in cases.rows() if row["name"] == name)
     result = pyehl.predict(cases.case(row), **cases.surfaces(row), tracks=1)

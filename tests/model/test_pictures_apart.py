@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""No texts of a picture lie on each other: machines, shapes of contact, stress, waves, documents.
+"""Texts of pictures do not overlap: machines, shapes, stress, waves, documents.
 
 Solutions, predictions, curves, studies and oils are in test_plot.py.
 """
@@ -19,7 +19,7 @@ from pyehl.surfaces import Topography
 
 @pytest.fixture
 def seen(monkeypatch):
-    """Take the pictures that scripts save; none is written."""
+    """Record the pictures that scripts save; none is written."""
     result = {}
 
     def take(figure, path, *_, **__):
@@ -63,7 +63,7 @@ def test_shapes_and_conditions_of_a_contact(cases, case, count, units):
 @pytest.mark.parametrize("length", [2e-4, 8e-4])
 @pytest.mark.parametrize("kappa", [0.1, 1.0, 25.0])
 def test_prediction_of_two_surfaces(kappa, length):
-    """Roughness of both, their spectra and the passage of both."""
+    """Roughness of both, their spectra and their passage."""
     heights = np.random.default_rng(1).normal(scale=1e-8, size=(48, 48))
     about = {"moes_m": 1e3, "moes_l": 10.0, "hertz_pressure_Pa": 1.66e9, "status": "predicted"}
     about |= {"hertz_radius_m": 2e-4, "ellipticity": kappa, "film_scale_m": 1e-5}
@@ -89,7 +89,7 @@ def test_prediction_of_two_surfaces(kappa, length):
 @pytest.mark.long
 @pytest.mark.parametrize("height", [1e-9, 3e-8, 5e-7])
 def test_machines(height):
-    """Around a bearing and along a path of contact, thick and thin films."""
+    """Along a ring of a bearing and along a path of contact, thick and thin films."""
     angle = np.array([0.0, 40.0, 80.0, 280.0, 320.0])
     film = 1e-7 * (1.0 + (angle - 180.0) ** 2 / 1e4)
     columns = {"azimuth_deg": angle, "h_c_m": film, "h_min_m": 0.8 * film, "load_N": 100.0}
@@ -127,7 +127,7 @@ def test_stress_waves_and_a_prepared_scan(cases):
 
 @pytest.mark.long
 def test_pictures_of_the_primer_and_the_front_page(seen, script, monkeypatch, root, cases):
-    """Sketch, films, map of the first picture, and all of the primer."""
+    """Sketch, films, map of the first picture, and all pictures of the primer."""
     monkeypatch.syspath_prepend(str(root / "docs" / "start"))
     front = importlib.import_module("contact")
     changes = {"time.steps": 4, "time.estimate_error": False, "grid.points": 65}
@@ -158,7 +158,7 @@ def test_pictures_of_the_primer_and_the_front_page(seen, script, monkeypatch, ro
     ],
 )
 def test_pictures_of_the_evidence(seen, evidence, root, folder, name, table):
-    """Each is drawn from its stored record."""
+    """Each picture is drawn from its stored record."""
     module = evidence(folder, name)
     home = root / "docs" / "evidence" / folder
     path = home / "picture.png"

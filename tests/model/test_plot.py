@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures: what they show, on fields that are known."""
+"""Pictures of known fields."""
 
 import dataclasses
 import itertools
@@ -81,7 +81,7 @@ def test_pressure_and_film_in_si(fields, scales):
 
 
 def test_a_very_fine_tile_is_drawn_in_part():
-    """Of 20 000 x 20 000 pixels in the contact a picture shows a part, and states so."""
+    """A picture of 20 000 x 20 000 pixels in the contact shows a part, and states so."""
     tile = Topography(np.random.default_rng(1).normal(0.0, 1e-9, (64, 48)), (6.4e-7, 4.8e-7))
     ax = surface.roughness(tile, tile.heights, 1e-4, name="(a) undeformed,")
     (image,) = ax.get_images()
@@ -106,7 +106,7 @@ def test_interferogram(fields, scales, si):
     assert image.shape[2] == 3
     assert 0.0 <= image.min()
     assert image.max() <= 1.0
-    # the centre by the law of two beams, in red and in green
+    # the centre by two-beam interference, in red and in green
     h = 0.0243 * (scales.film * 1e6 if si else 1.0)
     spacings = (0.633 / 3.0, 0.532 / 3.0) if si else (0.9 * h, 0.9 * h * 532 / 633)
     middle = image[image.shape[0] // 2, image.shape[1] // 2]
@@ -114,7 +114,7 @@ def test_interferogram(fields, scales, si):
         fade = np.exp(-((h / (contact.COHERENT_FRINGES * step)) ** 2))
         expected = 0.5 * (1 - fade * np.cos(2 * np.pi * h / step))
         assert middle[channel] == pytest.approx(expected, abs=0.02)
-    # the centre is not dark, and differs from a film a third as thick
+    # the centre is not dark, and differs from that of a film a third as thick
     thin = contact.fringe_colours(np.array(h / 3), *spacings)
     assert middle.max() > 0.5
     assert np.abs(middle - thin).max() > 0.3
@@ -129,7 +129,7 @@ def test_fringe_spacing_follows_the_film(scales):
         red, green = contact.fringe_spacings(central, scales)
         assert red == pytest.approx(0.9 * central)
         assert green < red
-    # the same light in the unit of thin films
+    # the same light for thin films, with their unit
     thin = dataclasses.replace(scales, thin=True)
     assert contact.fringe_spacings(200.0, thin) == pytest.approx((633.0 / 3.0, 532.0 / 3.0))
 
@@ -169,7 +169,7 @@ def test_every_function_takes_axes_and_returns_them(fields, settings):
 
 
 def clear(ax):
-    """Whether the numbers below axes do not lie on each other; there are some."""
+    """Whether the numbers below axes do not overlap, and there are some."""
     low, high = ax.get_xlim()
     boxes = sorted(
         (box.x0, box.x1)
@@ -255,7 +255,7 @@ def test_no_texts_of_a_solution_collide(kappa, units):
 @pytest.mark.long
 @pytest.mark.parametrize("kappa", [0.1, 1.0, 10.0])
 def test_no_texts_of_a_rough_surface_collide(kappa):
-    """The roughness in a contact, its spectrum and what the octaves add."""
+    """The roughness in a contact, its spectrum and the contributions of octaves."""
     heights = np.random.default_rng(1).normal(scale=1e-8, size=(48, 48))
     about = {"moes_m": 1e3, "moes_l": 10.0, "hertz_pressure_Pa": 1.66e9, "status": "predicted"}
     about |= {"hertz_radius_m": 2e-4, "ellipticity": kappa, "length_x_m": 8e-4, "length_y_m": 8e-4}
@@ -328,14 +328,14 @@ def test_headline():
 
 
 def test_heights_and_amplitude_ratio_of_each_wave(settings):
-    """The model of the paper has a real ratio: what stays and what takes pressure make one."""
+    """The model of the paper has a real ratio: deformed and flattened parts add up to one."""
     result = predict(settings)
     rough, deformed = result.surface, result.friction.response.deformed
     ax = surface.spectrum_line(rough, deformed, rough.heights - deformed)
     (twin,) = (other for other in ax.figure.axes if other is not ax)
     stays, flattened = (curves(twin)[name][:, 1] for name in ("|T|", "|1 − T|"))
     assert np.all(np.diff(stays) > 0.0)
-    # of an annulus both are rms values, which add up to one or a little more
+    # of an annulus both are rms values, whose sum is one or a little more
     assert np.all(stays + flattened >= 1.0)
     assert np.all(stays + flattened < 1.03)
     ax = surface.heights(result.surface)
@@ -371,7 +371,7 @@ def test_roughness_shares_one_scale(settings):
 )
 @pytest.mark.long
 def test_writing_in_the_pictures_of_a_prediction_is_whole(settings, rms, length, reduction):
-    """Every panel with its labels is inside of the picture, and none covers another."""
+    """Every panel with its labels is inside the picture, and no panels overlap."""
     settings["surface"] |= {"rms_height": rms, "length_x": length, "length_y": length, "pixels": 64}
     settings["psd"] |= {"reduction": reduction}
     result = predict(settings)

@@ -52,7 +52,7 @@ def test_summary_describes_the_prediction(settings):
 
 @pytest.mark.parametrize("tracks", [10**9, 10_001, 0, -1])
 def test_too_many_tracks_are_refused_at_once(settings, tracks):
-    """Before anything is made: a list of a thousand million would take the memory."""
+    """Before anything is allocated: a list of a thousand million would exhaust the memory."""
     settings["surface"] = {"kind": "fractal"}
     with pytest.raises(ValueError, match=rf"tracks = {tracks}: expected 1 to 10000; the mean over"):
         predict(settings, tracks=tracks)
@@ -148,7 +148,7 @@ def test_failed_write_leaves_the_old_result(folder, settings, monkeypatch):
 
 
 def test_a_picture_that_fails_is_a_warning(settings, tmp_path, monkeypatch, caplog):
-    """The result is written before there are pictures."""
+    """The result is written before the pictures."""
     place = destination(tmp_path / "out")
     result = predict(settings)
     write(result, place)
@@ -170,7 +170,7 @@ def test_a_picture_that_fails_is_a_warning(settings, tmp_path, monkeypatch, capl
 
 @pytest.fixture
 def command(settings, monkeypatch, tmp_path):
-    """Run the subcommand on `settings`, as if the compiled reader had read them."""
+    """Run the subcommand on `settings`, as if they came from the compiled reader."""
 
     class Case:
         text = "&surface\n kind = 'fractal'\n/\n"

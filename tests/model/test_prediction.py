@@ -55,7 +55,7 @@ def test_smooth_contact_is_that_of_a_fine_grid(contact):
 
 
 def test_every_function_of_the_table_of_equations_exists(root):
-    """In the head of the model, and in the page of the theory."""
+    """In the head of the module, and on the theory page."""
     page = (root / "docs" / "theory" / "prediction.md").read_text(encoding="utf-8")
     for kind, name in re.findall(r":(\w+):`([\w.]+)`", model.__doc__):
         parts = (name if name.startswith("pyehl.") else f"pyehl.prediction.{name}").split(".")
@@ -82,7 +82,7 @@ def test_no_roughness_no_change(contact, table_1):
 
 
 def test_a_tile_of_one_wave_follows_the_transfer():
-    """Tiles of a single wave against cos and sin, driven and free, the surface 20 % faster."""
+    """Tiles of one wave against cos and sin, driven and free, the surface 20 % faster."""
     n, side, turns = 48, 2.0, 3
     x = np.arange(n) * side / n
     q = 2.0 * np.pi * turns / side
@@ -97,14 +97,14 @@ def test_a_tile_of_one_wave_follows_the_transfer():
     assert pressure[:, 7] == pytest.approx(expected, abs=1e-5)
     fine = np.arange(4 * n) * side / (4 * n)
     free = np.real(0.2 * np.exp(1j * (q * fine + 0.6)))
-    # amplified by the loss of linear interpolation between four points a pixel
+    # amplified by the loss of linear interpolation between four points per pixel
     assert waves.free[0][:, 5, 0] == pytest.approx(free, abs=2e-3 * 0.2)
-    # the free wave has the wavenumber of a surface that is convected at the mean velocity
+    # the free wave has the wavenumber of a surface that moves at the mean velocity
     assert waves.free[0][:, 5, 1] == pytest.approx(-1.2 * k * free, abs=2e-3 * 0.2 * k)
 
 
 def test_real_amplitude_ratio_moves_with_the_roughness(table_1, settings):
-    """Without slip, lag and a solved contact the model is that of the paper."""
+    """Without slip, lag and a solved contact it is the model of the paper."""
     film = 0.2333e-6
     tile = table_1(seed=4)
     options = {"reduction": "amplitude", "smooth": "hertz"}
@@ -112,12 +112,12 @@ def test_real_amplitude_ratio_moves_with_the_roughness(table_1, settings):
     ours = run(passage(contact, tile, **options), tracks=1)[0].mu_ratio
     settings["surface"]["seed"] = 4
     paper = predict(settings).mu_ratio
-    # the edge of the contact affects long waves, which the model of the paper leaves out
+    # the edge of the contact affects long waves, which the model of the paper omits
     assert ours == pytest.approx(paper, rel=0.02)
 
 
 def test_slip_shifts_the_free_wave(contact, table_1):
-    """One per cent of slip, forward or backward, causes the increase of a Table 1 surface."""
+    """One per cent of slip in either direction causes the increase for a Table 1 surface."""
     tile = table_1(seed=21)
     ratio = {u: run(passage(contact, tile, u), tracks=1)[0].mu_ratio for u in (0.99, 1.0, 1.01)}
     assert ratio[1.0] < 1.0 < min(ratio[0.99], ratio[1.01])
@@ -125,7 +125,7 @@ def test_slip_shifts_the_free_wave(contact, table_1):
 
 
 def test_a_surface_in_motion_and_its_mirror_image(contact, table_1):
-    """A contact is symmetric in Y."""
+    """The contact is symmetric in Y."""
     z = table_1(seed=3).heights
     mirrored = Topography(np.roll(z[:, ::-1], 1, axis=1), (8.29e-4, 8.29e-4))
     both = [run(passage(contact, Topography(h, (8.29e-4, 8.29e-4))), 1)[0].mu_ratio for h in (z,)]
@@ -134,7 +134,7 @@ def test_a_surface_in_motion_and_its_mirror_image(contact, table_1):
 
 
 def test_table_is_fine_enough(contact, table_1, monkeypatch):
-    """Neither the table of responses, nor the stations, nor the points of friction matter."""
+    """Finer tables of responses, stations and points of friction change the result negligibly."""
     tile = table_1(seed=5)
     usual = run(passage(contact, tile), tracks=1)[0].mu_ratio
     monkeypatch.setattr("pyehl.prediction.spectrum.TABLE", (145, 49))
@@ -153,7 +153,7 @@ def test_film_breakdown_has_no_ratio(contact, table_1):
 
 
 def test_transfer_is_interpolated_from_its_table(contact):
-    """Components between the places of the table: T to 2e-3."""
+    """Components between the points of the table: T to 2e-3."""
     rng = np.random.default_rng(2)
     spectrum = Spectrum.of(rng.standard_normal((40, 36)), 1.7, 1.9)
     zone = zone_of(contact, POINT, OIL)
@@ -189,13 +189,13 @@ def test_options_of_the_paper_alone(settings):
 
 
 def test_smooth_contact_from_a_result_folder(tmp_path):
-    """A folder of the smooth contact is as good as a new solution; another contact is refused."""
+    """A folder of the smooth contact replaces the solution; another contact is refused."""
     case = pyehl.Case(CASES / "table1.nml", "surface.kind=smooth", "grid.points=257")
     folder = tmp_path / "smooth"
     pyehl.solve(case, output=folder)
     given = pyehl.predict(CASES / "table1.nml", smooth=folder)
     on_the_spot = pyehl.predict(CASES / "table1.nml")
-    # films extrapolated, with their errors, and mu_r/mu_s: the same numbers
+    # extrapolated films, with their errors, and mu_r/mu_s: the same numbers
     names = "h_c_m", "h_c_error_m", "h_min_m", "h_min_error_m", "mu_ratio", "mu_ratio_model_error"
     assert [given.summary[n] for n in names] == [on_the_spot.summary[n] for n in names]
     assert given.film_source == f"smooth contact in {folder}, extrapolated"
@@ -227,7 +227,7 @@ def test_turned_ellipse_is_no_smooth_contact_of_another(tmp_path):
 
 
 def test_what_a_grid_does_not_resolve():
-    """More friction depends on unresolved waves on a coarser grid; the parts agree with bands."""
+    """On a coarser grid more friction is unresolved; the parts agree with the bands."""
     result = {}
     for points in (129, 513):
         case = pyehl.Case(CASES / "table1.nml", f"grid.points={points}")
@@ -239,7 +239,7 @@ def test_what_a_grid_does_not_resolve():
 
 
 def test_waves_left_out_are_in_the_error():
-    """A coarse transient run: its error is that of the grids and what it leaves out."""
+    """A coarse transient run: its error is that of the grids plus the omitted waves."""
     # M = 200, L = 10
     options = "contact.load=119.0", "surface.rms_height=5e-9", "surface.length_x=4e-4"
     options = *options, "surface.length_y=4e-4", "contact.mean_velocity=0.832", "grid.points=65"
@@ -254,14 +254,14 @@ def test_waves_left_out_are_in_the_error():
 
 
 def test_beyond_the_linear_response(contact, table_1):
-    """Short waves as high as the film: no number, and the cut-off that would give one."""
+    """Short waves as high as the film: no number, but the cut-off that would give one."""
     rough = table_1(seed=21, rms_height=8e-8, hurst=0.4)
     model = passage(contact, rough, 1.03)
     friction, _, _ = run(model)
     assert friction.status == "beyond linear response"
     assert np.isnan(friction.mu_ratio)
     cut = float(re.search(r"shortest_wavelength = (\S+)", ways_into_range(model))[1])
-    # what it states holds when it is done
+    # the suggestion is correct
     taken, _, _ = run(passage(contact, filtered(rough, shortest_wavelength=cut), 1.03))
     assert taken.status == "predicted"
     assert 1.0 < taken.mu_ratio <= KNOWN_RATIO
@@ -294,7 +294,7 @@ def test_leak_at_amplitude_for_gaussian_pressure():
 
 
 def test_second_order_keeps_the_mass_of_every_column(contact, monkeypatch):
-    """And the friction by it, taken point by point, is that of the convolution."""
+    """The weighted mean of the pressure, taken point by point, is that of the convolution."""
     monkeypatch.setattr(response, "INLET_PRESSURE", 0.0)
     rng = np.random.default_rng(4)
     n, length, ratio = 64, 1.0, 1.02
@@ -332,7 +332,7 @@ def test_second_order_keeps_the_mass_of_every_column(contact, monkeypatch):
     ("ratio", "least", "most"), [(1.0, 0.9, 1.3), (1.01, 0.1, 0.9), (1.1, 0.0, 0.03)]
 )
 def test_second_order_of_the_inlet_fades_with_slip(contact, monkeypatch, ratio, least, most):
-    """It is convected, so that of its square what is along that of the pressure remains."""
+    """It is convected: only the part that is correlated with the pressure has an effect."""
     length, n = 1.0, 64
     zone = zone_of(contact, POINT, OIL)
     heights = np.random.default_rng(5).standard_normal((n, n))
@@ -352,7 +352,7 @@ def test_second_order_of_the_inlet_fades_with_slip(contact, monkeypatch, ratio, 
 
 
 def test_film_of_second_order(contact, table_1):
-    """The film regains 0.4 of the square of its loss, and ends at 1.6 of the smooth one."""
+    """The film regains 0.4 of the square of its reduction, and breaks down at 1.6 smooth films."""
     one = passage(contact, table_1(seed=21), 1.01)
     points = one.rough_contact(one.components())
     inside = np.where(points.inside, points.film, np.inf)
@@ -372,7 +372,7 @@ def test_film_of_second_order(contact, table_1):
 
 
 def test_film_after_a_loss():
-    """A parabola, and beyond a loss of 0.6 the exponential that goes on from it; and back."""
+    """A parabola, with an exponential continuation beyond a reduction of 0.6; and its inverse."""
     loss = np.linspace(-1.0, 3.0, 401)
     left = film_left(loss)
     low, high = loss < 0.599, loss > 0.601
@@ -390,7 +390,7 @@ def test_a_ring_in_tension_has_no_load(contact, table_1):
     one = passage(contact, table_1(seed=21), 1.01)
     points = one.rough_contact(one.components())
     change = np.zeros((*points.film.shape, 2), dtype=np.float32)
-    # more than the smooth pressure where that is least
+    # more than the smooth pressure where that is smallest
     change[..., 1] = np.where(points.radius > 0.7, -1.0, 0.0)
     assert np.isnan(points.sheared(change, points.smooth_film()))
     assert outcome(points, np.array([np.nan]))[0] == "load lost"
@@ -422,7 +422,7 @@ def test_points_in_tension_carry_no_load(contact, table_1, monkeypatch):
 
 
 def test_the_smooth_film_moves_with_the_edge(contact, table_1):
-    """Beyond OUTER a point has the film of a place that is nearer to the centre, or further."""
+    """Beyond OUTER a point has the film of a place nearer to the centre, or farther from it."""
     one = passage(contact, table_1(seed=21), 1.01)
     points = one.rough_contact(one.components())
     assert points.smooth_film() == pytest.approx(points.film, rel=1e-12)
@@ -440,7 +440,7 @@ def test_the_smooth_film_moves_with_the_edge(contact, table_1):
 
 
 def test_free_waves_beside_the_centre_line(contact, table_1):
-    """Each column has those of the two lines that it is between."""
+    """Each column is interpolated between those of two lines."""
     one = passage(contact, table_1(seed=21), 1.3)
     points = one.rough_contact(one.components())
     (tile,) = points.tiles
@@ -454,7 +454,7 @@ def test_free_waves_beside_the_centre_line(contact, table_1):
 
 
 def test_free_waves_are_thicker_where_the_pressure_is_lower(contact, table_1):
-    """They have a mass: beside the centre line they are thicker by the ratio of the densities."""
+    """They conserve mass: beside the centre line they are thicker by the ratio of densities."""
     one = passage(contact, table_1(seed=21), 1.0)
     points = one.rough_contact(one.components())
     middle, off = points.x.size // 2, int(np.argmin(np.abs(points.y - 0.8)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The prediction on elliptical contacts: stiffness, edge, the circle as a limit, measured waves."""
+"""The prediction on elliptical contacts: stiffness, edge, circular limit, measured waves."""
 
 import csv
 import math
@@ -46,7 +46,7 @@ def corner(u, v):
 @pytest.mark.parametrize("ratio", [WIDE, pytest.param(NARROW, marks=pytest.mark.long)])
 @pytest.mark.long
 def test_pressure_of_waves_on_an_ellipse_against_elements(ratio):
-    """Squares of constant pressure that deflect the ellipse by a wave but for a constant."""
+    """Squares of constant pressure that deflect the ellipse by a wave plus a constant."""
     shape = ellipse(ratio)
     kappa = shape.ellipticity
     h = min(1.0, kappa) / (20.0 if kappa > 1.0 else 14.0)
@@ -62,14 +62,14 @@ def test_pressure_of_waves_on_an_ellipse_against_elements(ratio):
     qx, qy = np.array([1.5, 0.0, 2.0, 4.0]), np.array([0.0, 2.0, 1.5, 3.0])
     waves = np.exp(1j * (np.outer(x, qx) + np.outer(y, qy)))
     result = np.linalg.solve(deflection, np.column_stack([waves, np.ones(x.size)]))
-    # no load
+    # zero load
     sums = result.sum(axis=0)
     result = result[:, :-1] - result[:, -1:] * (sums[:-1] / sums[-1])
     middle = np.hypot(x, y / kappa) < 0.7
     k = 0.25 * math.pi / shape.kernel_ratio * np.hypot(qx, qy)
     here = Series(shape, x, y / kappa, 14.0 * max(1.0, kappa)).of(qx, qy)
     assert (np.abs(here - result)[middle] / k).max() < 0.015
-    # beside that of the half-space, which is far away
+    # relative to that of the half-space, which is far away
     assert (np.abs(k * waves - result)[middle] / k).max() > 0.5
 
 
@@ -80,7 +80,7 @@ def test_circle_is_the_disc():
     x, y = (v.ravel() for v in np.meshgrid(line, line, indexing="ij"))
     here = edge.correction(qx, qy).T @ edge.functions(x, y)
     disc = disc_correction(qx, qy).T @ monomials(x, y, axis=0)
-    # the same polynomials, fitted at the same places
+    # the same polynomials, fitted at the same points
     assert np.abs(here - disc).max() < 1e-5 * np.abs(disc).max()
 
 
@@ -102,7 +102,7 @@ def test_polynomials_fit_the_edge(kappa):
 
 
 def test_circle_is_the_limit_of_ellipses():
-    """At an ellipticity of nearly 1 the code for ellipses predicts what that for circles does.
+    """At an ellipticity of nearly 1 the code for ellipses predicts the result for circles.
 
     Its film is that of a formula, and the pressure of oblique waves is calculated, not fitted.
     """
@@ -124,7 +124,7 @@ def test_circle_is_the_limit_of_ellipses():
 
 @pytest.mark.parametrize("ratio", [WIDE, NARROW, 1.0])
 def test_circle_with_the_same_inlet(ratio):
-    """Equal alpha_bar, and lambda_bar by heights that make the stiffness of waves that of it."""
+    """Equal alpha_bar, and lambda_bar with heights for an equal stiffness of waves."""
     point = OperatingPoint.from_moes(400.0, 10.0, radius_ratio=ratio)
     circle = OperatingPoint.from_moes(*point.equivalent_moes)
     assert circle.alpha_bar == pytest.approx(point.alpha_bar, rel=1e-12)
@@ -142,7 +142,7 @@ def rows_of(path: Path) -> list[dict[str, float]]:
 
 
 def test_response_of_ellipses_fits_measured_waves(root: Path):
-    """The response of the circle with the same inlet fits as well as on circles; others do not."""
+    """The circle with the same inlet fits as well as on circles; other circles do not."""
     rows = rows_of(root / "docs" / "evidence" / "ellipse" / "response.csv")
     groups: dict[tuple[float, ...], list[dict[str, float]]] = {}
     for row in rows:
@@ -155,7 +155,7 @@ def test_response_of_ellipses_fits_measured_waves(root: Path):
         for name in ("circle", "dry", "houpert", "by_rx"):
             off = [complex(r[f"{name}_re"] - r["T_re"], r[f"{name}_im"] - r["T_im"]) for r in part]
             rms[name] = math.sqrt(sum(abs(v) ** 2 for v in off) / len(off))
-        # 257 nodes leave 0.024 on circles
+        # 257 nodes give 0.024 on circles
         assert rms["circle"] < (0.026 if kappa > 0.5 else 0.06)
         if kappa != 1.0:
             assert rms["houpert"] > 2.0 * rms["circle"]
@@ -167,7 +167,7 @@ def test_response_of_ellipses_fits_measured_waves(root: Path):
 
 
 def test_shipped_waves_are_those_of_the_table(root: Path, script):
-    """The response of today at the conditions of the table."""
+    """The present response at the conditions of the table."""
     rows = rows_of(root / "docs" / "evidence" / "ellipse" / "response.csv")
     part = [row for row in rows if row["ellipticity"] == 0.4 and row["moes_m"] == 500.0]
     cases = script("docs/evidence/ellipse/cases.py")
@@ -184,7 +184,7 @@ def test_shipped_waves_are_those_of_the_table(root: Path, script):
 
 
 def test_off_the_centre_line(root: Path):
-    """The inlet lets less through beside the centre line, as measured; nothing is fitted to it."""
+    """The inlet transmits less beside the centre line, as measured; nothing is fitted to it."""
     rows = rows_of(root / "docs" / "evidence" / "ellipse" / "off_centre.csv")
     for kappa in (0.4, 0.6, 2.0, 4.0):
         part = [r for r in rows if r["ellipticity"] == kappa and 8.0 < r["kx"] < 20.0]
@@ -222,7 +222,7 @@ def test_refused_predictions():
 
 
 def test_share_below_a_film():
-    """Asked for on an ellipse as on a circle."""
+    """Computed on an ellipse as on a circle."""
     ellipse_of = {"contact.moes_m": 300.0, "contact.moes_l": 10.0, "contact.radius_ratio": WIDE}
     case = pyehl.Case.from_text("", ellipse_of | ROUGH)
     limit = pyehl.predict(case).summary["h_min_m"]
@@ -231,11 +231,11 @@ def test_share_below_a_film():
 
 
 def test_outside_of_the_range_by_the_same_inlet():
-    """An ellipticity that was not measured, and M that is in range by R_x alone."""
+    """An unmeasured ellipticity, and M that is within the range only by R_x."""
     for ratio, names in ((0.015, ["ellipticity"]), (NARROW, ["moes_m"]), (WIDE, []), (1.0, [])):
         point = OperatingPoint.from_moes(2900.0, 10.0, radius_ratio=ratio)
         assert outside_range(point, 1.02, ModelOptions()) == names
-        # an oil that thins in the inlet more than one that was measured
+        # an oil that thins in the inlet more than any measured one
         assert outside_range(point, 1.02, ModelOptions(), 18.0) == [*names, "thinning"]
 
 
@@ -268,7 +268,7 @@ def test_table_is_what_is_predicted(compare, name):
 
 
 def test_readme_states_the_numbers_of_the_table(compare):
-    """Counts, largest deviations and coverage, of the predictions from before."""
+    """Counts, largest deviations and coverage of the predictions made before the simulations."""
     text = plain(compare.HERE / "README.md").replace("−", "-")
     table = compare.read("table.csv")
     ended = [row for row in compare.read("simulated.csv") if row["status"] == "converged"]
@@ -313,7 +313,7 @@ def test_page_shows_the_finer_grid(compare):
 
 
 def test_ridges_beside_the_centre_line(root: Path, compare, script):
-    """What they take beyond the half-space, by calculation: most of what is measured."""
+    """Their calculated excess over the half-space is most of the measured one."""
     folder = root / "docs" / "evidence" / "ellipse"
     rows, text = rows_of(folder / "sides.csv"), plain(folder / "README.md")
     for key in {(row["ellipticity"], row["wavelength"]) for row in rows}:
@@ -328,7 +328,7 @@ def test_ridges_beside_the_centre_line(root: Path, compare, script):
     off = [row["predicted_gain"] - row["gain"] for row in near]
     assert min(off) > -0.1
     assert max(off) < 0.02
-    # and today's prediction is the one of the table
+    # and the present prediction is that of the table
     sides = script("docs/evidence/ellipse/sides.py")
     settings = sides.case_of_circle(0.5, 300.0, 12.0, 1.0).resolve()
     _, gain = sides.predicted(settings, 0.25)
@@ -337,13 +337,13 @@ def test_ridges_beside_the_centre_line(root: Path, compare, script):
 
 
 def test_waves_across_the_motion():
-    """An amplitude that is the same on all lines is one wave; one that changes is a sum."""
+    """An amplitude that is equal on all lines is one wave; one that varies is a sum."""
     ky, level = np.array([5.0]), np.ones((LINES.size, 1), dtype=complex)
     wavenumbers, parts = harmonics(level)
     inside = np.abs(LINES) < 0.9
     there = np.exp(1j * np.outer(LINES, wavenumbers)) @ parts[:, 0]
     assert np.abs(there - 1.0)[inside].max() < 0.01
-    # a hump is stiffer than a wave as high everywhere
+    # a hump is stiffer than a wave of the same height everywhere
     hump = level * (1.0 - np.square(LINES))[:, np.newaxis]
     here = line_pressure(level, 0.0 * ky, ky, 1.0, 1e3)[AXIS, 0]
     assert here == pytest.approx(free_stiffness(0.0 * ky, ky, 1.0)[0], rel=1e-2)
@@ -354,7 +354,7 @@ def test_waves_across_the_motion():
 
 
 def test_static_ridges(root: Path):
-    """Their pressure as measured, on circles and on ellipses; one as long as the width is worst."""
+    """Their pressure as measured, on circles and ellipses; worst for a wavelength of 1."""
     for row in rows_of(root / "docs" / "evidence" / "ellipse" / "ridges.csv"):
         off = row["predicted_pressure"] / row["pressure"] - 1.0
         assert abs(off) < (0.09 if row["wavelength"] == 1.0 else 0.045)

@@ -32,7 +32,7 @@ def strip(**options: object) -> pyehl.Case:
 
 @pytest.mark.parametrize(("kx", "ky"), [(3.0, 0.0), (3.0, 2.0), (0.0, 6.0), (8.0, 0.5)])
 def test_pressure_of_a_wave_on_the_strip(kx: float, ky: float):
-    """It deflects the strip into the wave, but for a height at k_Y = 0 (K_0 by hand)."""
+    """It deflects the strip into the wave plus, at k_Y = 0, a constant (K_0 by hand)."""
     edge = StripEdge(np.array([ky]), 2.0 * math.pi / (ky or 1.0))
     ((_, _, weights),) = edge.waves_and_weights(np.array([kx]), np.array([ky]))
     n = 20000
@@ -47,7 +47,7 @@ def test_pressure_of_a_wave_on_the_strip(kx: float, ky: float):
 
 
 def test_correction_of_a_strip():
-    """Beyond the half-space, by the polynomials: what the series itself has."""
+    """Excess over the half-space: polynomials against the series."""
     kx, ky = np.array([4.0]), np.array([-2.0])
     edge = StripEdge(np.abs(ky), math.pi)
     ((_, _, weights),) = edge.waves_and_weights(kx, ky)
@@ -59,12 +59,12 @@ def test_correction_of_a_strip():
     assert result == pytest.approx(
         np.outer(wanted, np.exp(-2j * y)), abs=0.02 * np.abs(wanted).max()
     )
-    # held near the edge
+    # constant near the edge
     assert edge.polynomials(np.array([0.95])) == pytest.approx(edge.polynomials(np.array([RADIUS])))
 
 
 def test_circle_with_the_dry_inlet_of_a_line():
-    """Of equal alpha_bar; lambda_bar over the square of the stiffness (by hand, M = 20, L = 10)."""
+    """Equal alpha_bar; lambda_bar over the square of the stiffness (by hand, M = 20, L = 10)."""
     line = LineContact.from_moes(20.0, 10.0)
     moes_m, moes_l = line.equivalent_moes
     assert moes_m == pytest.approx((128.0 * math.pi**3 / 3.0 / (6.0 / 400.0) ** 3) ** 0.25)
@@ -90,7 +90,7 @@ def test_transverse_waves_in_pure_rolling():
 
 
 def test_a_strip_repeated_along_the_line_changes_nothing():
-    """So are a tile and the same further along the line."""
+    """Nor does a shift of the tile along the line."""
     case = strip()
     b = contact_of(case.resolve()).hertz_radius
     rng = np.random.default_rng(3)
@@ -134,14 +134,14 @@ def test_predicted_before_simulated(root: Path):
         p, s = float(stated[name]["mu_ratio"]), float(row["mu_ratio"])
         held.append(abs(p - s) <= float(stated[name]["mu_ratio_model_error"]))
         limit = 0.005 if name[0] == "e" else 0.02 if s < 1.5 else 0.06
-        # one transverse wave is 2.3 % off, one drawn strip 2.7 %: the page states both
+        # one transverse wave deviates by 2.3 %, one drawn strip by 2.7 %: the page states both
         assert abs(p / s - 1.0) < {"across2": 0.025, "d3": 0.028}.get(name, limit)
     assert len(held) >= 25
     assert np.mean(held) >= 0.9
 
 
 def test_stress_under_a_line(root: Path):
-    """0.300 p_h at 0.786 b (Johnson 1985, section 4.2); a strip of equal rows has the same."""
+    """0.300 p_h at 0.786 b (Johnson 1985, section 4.2); a strip with equal rows gives the same."""
     result = pyehl.solve(root / "cases" / "line.nml", {"grid.points": 513})
     x = result.X.values[:, np.newaxis]
     dry = np.sqrt(np.maximum(0.0, 1.0 - x**2))

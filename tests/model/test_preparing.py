@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Maps with known tilt, curvature, missing points, spikes and jumps."""
+"""Maps with known tilt, curvature, missing points, spikes and steps."""
 
 import json
 
@@ -76,7 +76,7 @@ def test_form_is_fitted_to_valid_points():
 
 @pytest.mark.parametrize("many", [False, True])
 def test_holes_in_harmonic_heights_are_filled_exactly(monkeypatch, many):
-    """x, y, x y and x^2 - y^2 are harmonic, of the five-point differences, too."""
+    """x, y, x y and x^2 - y^2 are harmonic, also for five-point differences."""
     if many:
         monkeypatch.setattr("pyehl.surfaces.map_steps.DIRECT_POINTS", 0)
     i, j = np.meshgrid(np.arange(40.0), np.arange(30.0), indexing="ij")
@@ -127,12 +127,12 @@ def test_fill_none_refuses_missing_points():
 
 
 def test_prominence_of_spikes_in_noise():
-    """In units of the standard deviation of normal noise, which the median hardly changes."""
+    """In standard deviations of normal noise; a median changes them by a few per cent."""
     z = np.random.default_rng(3).normal(0.0, 1e-9, (200, 200))
     z[50, 60] += 1e-7
     z[120, 30] -= 5e-8
     away = prominence(z)
-    # minus the median of 25 points, whose own variance is 0.06 of that of one
+    # minus the median of 25 points, whose variance is 0.06 of that of one
     assert away[50, 60] == pytest.approx(100.0, rel=0.1)
     assert away[120, 30] == pytest.approx(50.0, rel=0.1)
     assert np.argwhere(away > 8.0).tolist() == [[50, 60], [120, 30]]
@@ -171,7 +171,7 @@ def test_defaults_by_the_kind_of_file():
     own = prepare(instrument(rough(), is_periodic=True))
     assert own.steps == ()
     assert own.tile == pytest.approx(rough(), abs=1e-20)
-    # a part of a tile, or a turned one, is none
+    # a part of a tile, or a rotated one, is no tile
     for options in (Options(crop=(0.0, 30e-6, 0.0, 0.0)), Options(rotate=10.0)):
         assert prepare(instrument(rough(), is_array=True), options).options.edges == "mirror"
     assert prepare(instrument(rough(), is_array=True), Options(rotate=90.0)).steps[-1].name == (
@@ -185,10 +185,10 @@ def test_mirrored_tile():
     assert tile.shape == (128, 66)
     # each height four times: the same distribution
     assert np.array_equal(np.sort(tile.ravel())[::4], np.sort(z.ravel()))
-    # the middle of the map on row 0
+    # the centre of the map is on row 0
     assert np.array_equal(tile[:64, 0], z[:, 16])
     assert np.array_equal(tile[:64, 1], z[:, 17])
-    # heights are continuous at every seam, where the plain repetition jumps
+    # heights are continuous at every seam, where simple repetition has a step
     ramp = np.add.outer(np.arange(64.0), np.arange(33.0))
     assert jump(ramp) > 20.0
     assert jump(mirrored(ramp)) < 1.1
@@ -201,7 +201,7 @@ def test_mirrored_tile():
 
 
 def test_mirroring_removes_the_waves_of_a_jump():
-    """A jump makes waves of all lengths; a ramp of 1 um without mirror images, and with them."""
+    """A step makes waves of all lengths; a ramp of 1 um without and with mirror images."""
     x, _ = axes((64, 64))
     above = []
     for tile in (x, mirrored(x)):
@@ -231,7 +231,7 @@ def test_crop():
 
 
 def test_quarter_turns_are_exact():
-    """Counter-clockwise: what lay along x lies along y, and what was at large x is at large y."""
+    """Counter-clockwise: the x direction becomes y, and large x becomes large y."""
     z = np.zeros((8, 6))
     z[7, 0] = 1.0
     turned, pixel = rotated(z, (1e-6, 2e-6), 90.0)
@@ -245,14 +245,14 @@ def test_quarter_turns_are_exact():
 
 @pytest.mark.parametrize("angle", [30.0, -20.0, 45.0, 135.0])
 def test_turned_lay(angle):
-    """A wave along x points in the direction of the angle, in what is left of the map."""
+    """A wave along x points in the direction of the angle, in the remaining part of the map."""
     n, wavelength = 160, 16.0
     across = np.cos(2 * np.pi * (np.arange(n) - (n - 1) / 2) / wavelength)
     z = np.repeat(across[:, None], n, axis=1)
     turned, pixel = rotated(z, PIXEL, angle)
     assert pixel == PIXEL
     nx, ny = turned.shape
-    # a square inside a turned square
+    # the largest square inside a rotated square
     side = n / (abs(np.cos(np.radians(angle))) + abs(np.sin(np.radians(angle))))
     assert nx * ny >= 0.9 * side * side * (1.0 if angle % 45 else 0.95)
     x, y = np.meshgrid(np.arange(nx) - (nx - 1) / 2, np.arange(ny) - (ny - 1) / 2, indexing="ij")
@@ -306,7 +306,7 @@ def test_areal_numbers_of_a_wave():
     assert values["Ssk"] == pytest.approx(0.0, abs=1e-12)
     assert values["Sku"] == pytest.approx(1.5, rel=1e-12)
     assert values["Sdq"] == pytest.approx(a / np.sqrt(2) * 2 * np.pi / 32e-6, rel=1e-2)
-    # lines across x: short along x, as long as the map is known along y
+    # lines across x: short along x, as long as the map along y
     assert values["Str"] < 0.1
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Profiles of stylus instruments: their files, their spectra, and surfaces made of them."""
+"""Profiles of stylus instruments: files, spectra, and surfaces derived from them."""
 
 import math
 
@@ -13,7 +13,7 @@ from pyehl.surfaces import fractal, profile_file
 from pyehl.surfaces.profile import fit, levelled
 from pyehl.surfaces.profile_file import Profile, is_profile, read_profile
 
-# of a prediction only the surface is looked at
+# these tests use only the surface of a prediction
 UNSOLVED = {"psd.smooth": "hertz"}
 N, DX = 600, 0.5e-6
 
@@ -126,12 +126,12 @@ def made(hurst, rolloff, seed, n=4096, rms=3e-7):
 
 @pytest.mark.parametrize(("hurst", "rolloff"), [(0.5, 0.0), (0.8, 6e4), (0.3, 1e5), (0.9, 0.0)])
 def test_bands_contain_the_true_values(hurst, rolloff):
-    """Of 20 profiles the bands of 95 % hold nearly all."""
+    """For 20 profiles nearly all bands of 95 % contain the true value."""
     held = {"hurst": 0, "rolloff": 0, "rms": 0}
     for seed in range(20):
         result = fit(made(hurst, rolloff, seed), ridges=True)
         held["hurst"] += result.hurst_band[0] <= hurst <= result.hurst_band[1]
-        # one that is not distinguished from none is none
+        # a roll-off that cannot be distinguished from none is none
         reported = result.rolloff_band[0] <= rolloff <= result.rolloff_band[1]
         held["rolloff"] += reported or result.rolloff == 0.0
         held["rms"] += result.rms_band[0] <= 3e-7 <= result.rms_band[1]
@@ -144,7 +144,7 @@ def test_bands_contain_the_true_values(hurst, rolloff):
 
 @pytest.mark.long
 def test_an_isotropic_surface_follows_from_its_profile():
-    """The profile of an isotropic surface falls with an exponent lower by one than the surface."""
+    """The spectral exponent of the profile is lower by one than that of the surface."""
     result = []
     for seed in range(6):
         tile = fractal(
@@ -187,7 +187,7 @@ def test_a_profile_as_an_isotropic_surface(tmp_path, z):
     assert tile.size == pytest.approx((N * DX, N * DX))
     assert 0.8 * results.rms < tile.rms_height <= results.rms
     assert f"Hurst exponent {results.hurst:.2f}" in tile.preparation.record.note
-    # along and across alike, and another seed is another surface
+    # the same along and across, and another seed gives another surface
     slopes = [np.std(np.diff(tile.heights, axis=axis)) for axis in (0, 1)]
     assert slopes[0] == pytest.approx(slopes[1], rel=0.1)
     other = pyehl.predict(case, UNSOLVED, {"surface.seed": 2}, tracks=1).surface

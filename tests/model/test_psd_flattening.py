@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Effect of a loaded contact on a wave: stiffness and amplitude reduction."""
+"""Stiffness of a loaded contact against a wave, and amplitude reduction."""
 
 import math
 
@@ -41,8 +41,8 @@ def deflection_at_crest(wavelength, modulus):
     inverse = np.zeros_like(r2)
     np.divide(1.0, np.sqrt(r2), out=inverse, where=r2 > 0.0)
     # midpoint rule with the exact integral of 1/r over the singular cell, 4 h ln(1 + sqrt 2), and
-    # the lattice constant that the rest of the midpoint sum misses: the Epstein zeta function
-    # of the square lattice at 1/2, 4 zeta(1/2) beta(1/2) = -3.90026492
+    # the lattice constant that the remaining midpoint sum omits: the Epstein zeta function of the
+    # square lattice at 1/2, 4 zeta(1/2) beta(1/2) = -3.90026492
     return 2 / (math.pi * modulus) * (np.sum(p * inverse) * h * h + 3.90026492 * h)
 
 
@@ -61,7 +61,7 @@ def test_stiffness_by_convolution():
     n, wavelength, modulus = 96, 2e-4, 2.26e11
     h = wavelength / n
     images = 40
-    # kernel of one period: all images of the point load, their mean taken out
+    # kernel of one period: all images of the point load, minus its mean
     i = np.arange(n)
     i = np.where(i > n // 2, i - n, i) * h
     kernel = np.zeros((n, n))
@@ -78,14 +78,14 @@ def test_stiffness_by_convolution():
     w -= w.mean()
     fitted = np.sum(p * p) / np.sum(p * w)
     exact = half_space(math.hypot(k, k))
-    # the images beyond the sum leave a smooth kernel that hardly affects a wave
+    # the images beyond the sum add a smooth kernel that hardly affects a wave
     assert fitted == pytest.approx(exact, rel=5e-3)
     assert w == pytest.approx(p / exact, abs=5e-3 / exact)
 
 
 def test_paper_stiffness_is_too_stiff():
     q = np.array([1e4, 1e5])
-    # eq. 11 to the letter, with 2 pi/|q|
+    # eq. 11 as printed, with 2 pi/|q|
     literal = math.pi * POINT.reduced_modulus / (math.sqrt(2) * 2 * math.pi / q)
     assert PAPER_STIFFNESS * half_space(q) == pytest.approx(literal)
 
@@ -122,7 +122,7 @@ def test_pattern_is_the_closed_form_of_cos_cos():
 
 
 def test_response_keeps_phases(table_1):
-    """Moving the surface moves its response: it would not if only moduli were kept."""
+    """Moving the surface moves its response: with moduli alone it would not."""
     rough = table_1(pixels=64)
     px, py = rough.pixel
     moved = response(surfaces.shifted(rough, 5 * px, -7 * py), POINT)

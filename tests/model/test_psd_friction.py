@@ -43,13 +43,13 @@ def test_waves_across_the_motion_against_quadrature(wave):
         lambda t: math.exp(z * math.cos(t)) / (1 - d * math.cos(t)) / math.pi, 0, math.pi
     )
     result = predict_friction(wave(height, wavelength), POINT, BARUS, FILM)
-    # but for the edge of the contact, where p_s + delta p < 0 counts as cavitated
+    # except at the edge of the contact, where p_s + delta p < 0 counts as cavitated
     assert result.mu_ratio == pytest.approx(expected, rel=1e-9)
     assert expected > 1.1
 
 
 def test_waves_along_the_motion_against_quadrature(wave):
-    """They do not change as they pass; Roelands, integrated by a routine of its own."""
+    """They do not change as they pass; Roelands, integrated by an independent routine."""
     wavelength, height = 1e-4, 2e-8
     z = wave(height, wavelength, 64).heights.T.copy()
     rough = Topography(z, (wavelength, wavelength))
@@ -164,7 +164,7 @@ def test_load_balance(table_1):
 
 
 def test_load_balance_follows_hertz():
-    """Roughness that is one bump under the whole contact acts like a lighter smooth contact."""
+    """Roughness that is one bump under the whole contact acts like a lower smooth load."""
     n, side = 128, 24 * POINT.hertz_radius
     x = np.arange(n) / n
     hill = np.outer(np.cos(2 * np.pi * x), np.cos(2 * np.pi * x)) * 4e-6
@@ -173,7 +173,7 @@ def test_load_balance_follows_hertz():
     held = predict_friction(rough, POINT, ROELANDS, FILM, options)
     field = response(rough, POINT, options)
     dp, ad = float(field.pressure[0, 0]), float(field.deformed[0, 0])
-    # cos(k x) cos(k y) on average over a circle about its crest
+    # cos(k x) cos(k y), averaged over a circle about its crest
     r = np.linspace(0.0, 1.0, 4001) * POINT.hertz_radius
     bump = j0(math.sqrt(2) * 2 * math.pi / side * r)
     carried = 2 * math.pi * np.trapezoid(dp * bump * r, r) / POINT.load

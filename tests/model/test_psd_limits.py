@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the model ends, and what it refuses."""
+"""Limits of the model, and refused input."""
 
 import math
 

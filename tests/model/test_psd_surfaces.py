@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the model gives for rough surfaces, for their tracks and bands of wavelengths."""
+"""Predictions for rough surfaces, their tracks and bands of wavelengths."""
 
 import math
 from itertools import pairwise
@@ -25,7 +25,7 @@ LENGTH = 8.29e-4
 
 @pytest.fixture
 def twenty(table_1):
-    """mu_r/mu_s of the first twenty surfaces, by a lubricant and options."""
+    """mu_r/mu_s of the first twenty surfaces, for a lubricant and options."""
 
     def ratios_of(lubricant, **options):
         values = [
@@ -40,7 +40,7 @@ def twenty(table_1):
 
 
 def test_twenty_surfaces(table_1, twenty):
-    """The range in which independent implementations put the mean over 20 surfaces."""
+    """The range in which independent implementations have the mean over 20 surfaces."""
     ratios = twenty(ROELANDS)
     assert 1.03 < ratios.mean() < 1.15
     assert 0.05 < ratios.std(ddof=1) < 0.16
@@ -60,14 +60,14 @@ def test_twenty_surfaces(table_1, twenty):
 
 @pytest.mark.long
 def test_twenty_surfaces_as_the_paper_reads(twenty):
-    """Barus and eq. 11 to the letter: 1.49 +- 0.40 in an independent implementation."""
+    """Barus and eq. 11 as printed: 1.49 +- 0.40 in an independent implementation."""
     ratios = twenty(BARUS, stiffness="paper", wavelength_convention="wavevector")
     assert ratios.mean() == pytest.approx(1.49, abs=2 * 0.5 / math.sqrt(20))
     assert ratios.mean() > twenty(BARUS).mean() > twenty(ROELANDS).mean()
 
 
 def test_prediction_of_the_paper_is_below_equation_16():
-    """The film wave lags the roughness, which the model leaves out: it under-predicts."""
+    """The film wave lags the roughness, which the model omits: it under-predicts."""
     point = OperatingPoint.from_moes(1000.0, 10.0)
     film = 0.024335 * point.film_scale
     side = 0.5 * point.hertz_radius
@@ -86,7 +86,7 @@ def over_tracks(rough):
 
 
 def test_rise_over_all_tracks_is_quadratic_in_the_height(table_1):
-    """Single positions are linear, and so is one track: waves along the motion stay in place."""
+    """Single positions are linear, and so is one track: waves along the motion do not move."""
     z = table_1(pixels=128).heights
     means, spreads = zip(
         *(over_tracks(Topography(scale * z, (LENGTH, LENGTH))) for scale in (0.05, 0.1)),

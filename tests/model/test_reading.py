@@ -20,7 +20,7 @@ SIZE = (3e-5, 2e-5)
 
 
 def slope_map(nx=30, ny=20):
-    """Heights that differ along x and y, and from end to end: 2 nm a pixel along x, 7 along y."""
+    """Heights with different slopes along x and y: 2 nm per pixel along x, 7 along y."""
     return 1e-9 * (2.0 * np.arange(nx)[:, None] + 7.0 * np.arange(ny)[None, :])
 
 
@@ -112,7 +112,7 @@ def test_channel_by_name_or_number(tmp_path, wanted, last):
     path.write_text(TWO_CHANNELS, encoding="utf-8")
     scan = read_scan(path, channel=wanted)
     assert scan.heights[3, 3] == pytest.approx(last * 1e-9)
-    # lines of an export run along x
+    # lines of an export are along x
     assert scan.heights[1, 0] == pytest.approx(2e-9)
     assert scan.channel == ("Down" if last == 9.0 else "Up")
     assert (scan.length_x, scan.length_y) == pytest.approx((1e-5, 2e-5))
@@ -143,7 +143,7 @@ def test_array_axes(tmp_path):
 
 @pytest.mark.parametrize(("unit", "factor"), [("mm", 1e3), ("um", 1e6), ("nm", 1e9)])
 def test_heights_in_other_units(tmp_path, unit, factor):
-    """Of files that name none; a file of an instrument does."""
+    """For files that name no unit; a file of an instrument names one."""
     z = slope_map()
     np.savetxt(tmp_path / "map.txt", factor * z)
     np.save(tmp_path / "map.npy", factor * z)
@@ -170,7 +170,7 @@ def test_decimal_commas(tmp_path, separator):
 
 @pytest.mark.parametrize("header", ["", "x,y,z", "x y z"])
 def test_lists_of_points(tmp_path, header):
-    """In any order, places rounded, a point missing; size and heights in one unit."""
+    """In any order, positions rounded, a point missing; size and heights in one unit."""
     z = slope_map()
     nx, ny = z.shape
     pixel = SIZE[0] / nx, SIZE[1] / ny
@@ -219,7 +219,7 @@ def test_unreadable_instrument_file(tmp_path):
 
 @pytest.mark.parametrize("data", [b"II*\0" + bytes(range(250)) * 2, b"\0\0\0" + b"1 2 3\n" * 30])
 def test_readers_print_nothing(tmp_path, capfd, recwarn, data):
-    """They neither log nor warn about a binary file with the name of a text."""
+    """They neither log nor warn about a binary file with the name of a text file."""
     (tmp_path / "map.csv").write_bytes(data)
     with pytest.raises(InputError, match=r"map\.csv: .*map") as refused:
         read_scan(tmp_path / "map.csv")
@@ -243,7 +243,7 @@ def test_missing_package_says_how_to_install_it(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("name", ["map.npy", "map.txt", "map.x3p", "map"])
 def test_map_larger_than_the_memory(tmp_path, name):
-    """Sparse files, which take no room on the disk: nothing of them is read."""
+    """Sparse files, which take no space on the disk: their data are not read."""
     n = 400_000
     with (tmp_path / name).open("wb") as stream:
         if name == "map.npy":
@@ -288,7 +288,7 @@ TABLE = "0,5;1,5;2,5;3,5;4,5\n1,0;2,0;3,0;4,0;5,0\n-1;0;1;2;3\n0;0;0;0;7,25\n"
     ],
 )
 def test_table_under_header_lines(tmp_path, header, size, unit):
-    """A spreadsheet's: lines along x, decimal commas; what the header states of size and unit."""
+    """From a spreadsheet: lines along x, decimal commas; size and unit stated in the header."""
     path = tmp_path / "table.csv"
     path.write_text(header + TABLE, encoding="utf-8")
     given = (2e-5, 3e-5) if size == (None, None) else (None, None)
@@ -340,7 +340,7 @@ def test_bytes_are_no_table(tmp_path):
 
 @pytest.mark.parametrize("text", ["Height map\n1;2;3\nend\n", "Height map\nnothing\n\n"])
 def test_text_without_a_table(tmp_path, text):
-    """The first line that is not numbers is named, and what to do."""
+    """The message names the first line without numbers, and a remedy."""
     (tmp_path / "words.csv").write_text(text)
     message = r"words\.csv:1: 'Height map' is not numbers(.|\n)*height_unit, surface\.length_x"
     with pytest.raises(ValueError, match=message):
@@ -363,7 +363,7 @@ def test_text_without_a_table(tmp_path, text):
     ],
 )
 def test_exports_are_no_arrays(tmp_path, name, head, array):
-    """In the languages of Gwyddion, with a unit and no size, and whatever begins with words."""
+    """In the languages of Gwyddion, with a unit and no size, and any that begin with words."""
     rows = "1e-9 2e-9 3e-9 1e-9\n" * 4
     (tmp_path / name).write_text(head + rows, encoding="utf-8")
     assert read_scan(tmp_path / name, *SIZE).is_array is array
@@ -381,7 +381,7 @@ def test_text_export_in_another_language(tmp_path):
 
 @pytest.mark.parametrize("suffix", ["mat", "h5"])
 def test_files_without_size_and_unit(tmp_path, suffix):
-    """Both lengths are needed; the heights are then taken in m, which the record states."""
+    """Both lengths are required; the heights are then taken in m, which the record states."""
     z = slope_map()
     path = tmp_path / f"scan.{suffix}"
     if suffix == "mat":

@@ -15,7 +15,7 @@ def test_hertz_pressure_integrates_to_the_load():
 
 @pytest.mark.parametrize("x", [0.0, 0.5, 1.5, 3.0])
 def test_deflection(x):
-    # polar coordinates about the point itself, where 1/r cancels
+    # polar coordinates about the point, in which 1/r cancels
     def along(s, phi):
         return float(reference.hertz_pressure(x + s * math.cos(phi), s * math.sin(phi)))
 
@@ -29,5 +29,5 @@ def test_deflection_is_smooth_at_the_edge():
     assert inside == pytest.approx(outside, abs=1e-8)
     assert float(reference.hertz_deflection(0.0, 0.0)) == 1.0
     far = float(reference.hertz_deflection(1e3, 0.0))
-    # a point load of 2 pi/3 from afar
+    # far away, a point load of 2 pi/3
     assert far == pytest.approx(2 / math.pi**2 * 2 * math.pi / 3 / 1e3, rel=1e-3)

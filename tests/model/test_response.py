@@ -42,7 +42,7 @@ def test_short_waves_pass_undeformed_and_long_ones_not_at_all():
         q = 2.0 * np.pi / wavelength
         t = response(zone(), q * np.cos(angle), q * np.sin(angle), 1.0)
         assert np.abs(t - limit).max() < tolerance
-    # between them |T| falls with the wavelength, in every direction, but for the very shortest
+    # between them |T| falls with the wavelength, in every direction, except for the very shortest
     q = 2.0 * np.pi / np.geomspace(0.05, 4.0, 30)
     for one in angle:
         t = np.abs(inlet_fit(q * np.cos(one), q * np.sin(one), (1000.0, 10.0), 1.0))
@@ -57,7 +57,7 @@ def test_ridges_along_the_motion_do_not_move(ratio: float):
     none = np.zeros_like(qy)
     t = response(zone(), none, qy, ratio)
     assert np.abs(t.imag).max() < 1e-14
-    # and are independent of the velocity of the surface
+    # and do not depend on the velocity of the surface
     assert t == pytest.approx(response(zone(), none, qy, 1.0), abs=1e-12)
 
 
@@ -78,14 +78,14 @@ def test_compressibility_keeps_part_of_the_wave_on_the_roughness():
 
 
 def uniform(*, film: float = 0.03, conductance: float = 2e-4) -> Zone:
-    """Film, pressure and lubricant the same everywhere: C and the leak enter, no gradient does."""
+    """Uniform film, pressure and lubricant: C and the leakage enter, no gradient does."""
     x = np.linspace(-1.0, 1.0, 9)
     same = np.ones_like(x)
     return Zone(x, same, film * same, same, 0.05 * same, 0.0 * same, same, conductance * same)
 
 
 def test_leaking_lubricant_does_not_deform_the_wave():
-    # what is free decays as exp(-k_Y X)
+    # free waves decay as exp(-k_Y X)
     qx = np.array([100.0, 200.0])
     parts = transport(uniform(conductance=1e3), 0.5 * qx, qx, 1.01, STATIONS)
     assert [free == pytest.approx(0.0, abs=1e-12) for _, free in parts] == [True] * 3
@@ -108,7 +108,7 @@ def test_transport_of_ridges_in_a_uniform_contact_is_the_closed_form():
 
 @pytest.mark.parametrize("ratio", [0.8, 1.0, 1.1])
 def test_free_wave_in_a_uniform_contact_obeys_the_linearised_equation(ratio: float):
-    """T = exp(r X) in the equation of the module's head: a polynomial in r."""
+    """T = exp(r X) in the equation of the head of the module: a polynomial in r."""
     qx, qy, e, held = np.array([9.0, 25.0]), np.array([4.0, 0.0]), 2e-5, 0.03 * 0.05
     parts = transport(uniform(conductance=e), qx, qy, ratio, STATIONS)
     slip = qx * (ratio - 1.0)
@@ -139,7 +139,7 @@ def test_flow_of_the_contact_turns_a_leaking_wave():
         contact = Zone(x, rising * x, 0.03 * same, same, *held)
         turned.append(np.array(transport(contact, qx, 0.0 * qx, 1.0, STATIONS))[:, :, 0].sum(1))
     uniform_film, thinning = turned
-    # both parts together are the roughness itself where there is no pressure
+    # both parts add up to the roughness where there is no pressure
     assert uniform_film == pytest.approx(1.0, abs=1e-9)
     assert np.abs(thinning - 1.0).min() > 0.01
 
@@ -155,7 +155,7 @@ def test_cells_of_a_grid_are_stiffer():
 
 def test_inlet_without_slip_or_leak_passes_the_wave():
     qx, qy = np.array([9.0, 60.0]), np.array([4.0, 0.0])
-    # nothing leaks: the wave is that of the undeformed roughness, where the film is not pressed
+    # without leakage the wave is that of the undeformed roughness, where the film is not compressed
     stiff = zone(compressibility=0.0, conductance=0.0)
     assert upstream(stiff, qx, qy, 1.0) == pytest.approx(1.0, abs=1e-12)
     # nothing changes along the motion: ridges leak until the film is undeformed
@@ -164,7 +164,7 @@ def test_inlet_without_slip_or_leak_passes_the_wave():
 
 @pytest.mark.parametrize("ratio", [0.8, 1.0, 1.2])
 def test_wave_follows_the_roughness_until_the_leak_ends(ratio: float):
-    """The leak falls from much more than the slip to nothing at X = e: |B| = 1, free from e on."""
+    """The leakage falls from far above the slip to zero at X = e: |B| = 1, free from e on."""
     x = np.linspace(-1.5, 1.0, 2001)
     same, end = np.ones_like(x), -0.95
     leak = 1e-2 * np.exp(-np.maximum(x - end, 0.0) / 1e-3)
@@ -197,13 +197,13 @@ def test_pressure_of_a_wave_on_the_disc_is_that_of_a_dense_system():
     system = np.ones((n + 1, n + 1))
     system[:n, :n] = 2.0 / np.pi**2 * cell(x[:, None] - x, y[:, None] - y, h)
     system[n, n] = 0.0
-    # the last unknown is the approach of the bodies, the last equation: no load
+    # the last unknown is the approach of the bodies, the last equation: zero load
     result = np.linalg.solve(system, np.vstack([wave, np.zeros((1, 2))]))[:n]
     middle = np.hypot(x, y) < 0.7
     terms = disc.monomials(x[middle], y[middle]) @ disc.disc_correction(qx, qy)
     closed = 0.25 * np.pi * np.hypot(qx, qy) * wave[middle] + terms
     size = np.abs(closed).max(axis=0)
-    # first order in the cell at the edge, where the pressure is singular; and a cut series
+    # first order in the cell at the edge, where the pressure is singular; and a truncated series
     assert np.abs(result[middle] - closed).max(axis=0) / size == pytest.approx(0.0, abs=0.03)
 
 
@@ -225,7 +225,7 @@ def test_coefficients_are_the_fit_to_the_measured_waves(
     assert {k: shipped[k] for k in ("range", "parameter", "slope")} == {
         k: anew[k] for k in ("range", "parameter", "slope")
     }
-    # the coefficients of many terms are alike, so T is compared and not they
+    # the coefficients of many terms are similar, so T is compared and not they
     q = 2.0 * np.pi / np.geomspace(0.03, 3.0, 15)
     values = []
     for fitted in (shipped, anew):
@@ -238,7 +238,7 @@ def test_coefficients_are_the_fit_to_the_measured_waves(
             ]
         )
     assert np.array(values[0]) == pytest.approx(np.array(values[1]), abs=1e-3)
-    # and the table of residuals is of this fit
+    # and the table of residuals is that of this fit
     with (Path(evidence.HERE) / "residuals.csv").open() as stream:
         stored = list(csv.reader(stream))[1:]
     for old, new in zip(stored, evidence.table(result, data), strict=True):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figure of ``pyehl response``: measured lags lie on the lines, whatever turns lie between."""
+"""The figure of ``pyehl response``: measured lags are on the lines, whole turns apart."""
 
 import numpy as np
 

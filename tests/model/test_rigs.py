@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files of rigs: formats, units, repeats, and results beside them.
+"""Files of rigs: formats, units, repeats, and comparisons with results.
 
 The form of the PCS files is that of public examples of the package `tribology` (M. Ploss, MIT
 licence): demo_3.txt of an EHD261, demo-mtm-output.txt of an MTM311. Their films are some of its
@@ -61,7 +61,7 @@ def test_film_steps_of_an_ehd_file(tmp_path: Path, encoding: str) -> None:
 
 
 def test_traction_steps_of_an_mtm_file(tmp_path: Path) -> None:
-    """The first columns are a summary of the step, which stands again among the full ones."""
+    """The first columns summarise the step, which is repeated among the full ones."""
     head = (
         "SRR (%)\tTraction Coeff (-)\t\tStep Time (s)\tLube RTD Temp (degC)\tBall Load (N)\t\t"
         "Rolling Speed (mm/s)\tSRR (%)\t\tTraction Coeff (-)"
@@ -126,7 +126,7 @@ def test_files_that_are_not_read(tmp_path: Path, text: str, expected: str) -> No
 
 
 def test_repeats_are_averaged(tmp_path: Path) -> None:
-    """Two sweeps of the same set points, each a little off; a fine curve is left as it is."""
+    """Two sweeps over the same set points with small deviations; a fine curve is unchanged."""
     path = tmp_path / "repeats.csv"
     path.write_text(
         "speed (mm/s),film (nm)\n19.9,24\n25.2,30\n31.7,36\n20.1,26\n25.3,32\n31.8,35\n"
@@ -144,7 +144,7 @@ def test_repeats_are_averaged(tmp_path: Path) -> None:
 
 
 def test_deviations_per_decade(tmp_path: Path) -> None:
-    """A computed power law beside one that is 5 % lower; the last point is beyond the results."""
+    """A computed power law against one that is 5 % lower; the last point is beyond the results."""
     speeds = np.geomspace(0.01, 3.0, 12)
     path = tmp_path / "law.csv"
     rows = "".join(f"{u!r},{100.0 * u**0.67!r}\n" for u in speeds.tolist())

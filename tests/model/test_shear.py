@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shear laws: closed forms and limits; `cases/test_kinematics.py` has them in whole runs."""
+"""Shear laws: closed forms and limits; `cases/test_kinematics.py` tests them in runs."""
 
 import math
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers in README, tutorial, how-tos, limits and theory that this build makes in seconds."""
+"""Numbers in README, tutorial, how-tos, limits and theory that this build gives in seconds."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from pyehl.theory.response import edge_gain
 
 @pytest.fixture(scope="module")
 def states(root: Path):
-    """Assert that words stand in a page."""
+    """Assert that a page contains some words."""
 
     def check(page: str, *words: str) -> None:
         text = plain(root / page)
@@ -90,7 +90,7 @@ def test_measured_surface(states, cases: Path):
 
 @pytest.mark.long
 def test_traction_near_the_origin(states, cases: Path):
-    """In proportion to the ratio below 1e-6, and no more at 1e-5."""
+    """Proportional to the ratio below 1e-6, and no longer at 1e-5."""
     slopes = [
         float(pyehl.solve(cases / "mtm.nml", {"contact.slide_to_roll": s, "grid.points": 129}).mu)
         / s
@@ -139,7 +139,7 @@ def test_limits(states, cases: Path):
 
 
 def test_constants_of_the_prediction(states):
-    """Where a film ends, the film by the inlet, the pressure of oblique waves."""
+    """Film breakdown, the film by the inlet, the pressure of oblique waves."""
     ends, film, least = response.FILM_ENDS, response.INLET_FILM, response.QUADRATIC
     states("docs/conventions.md", f"to first order, exceeds {ends:g} times the smooth film")
     states("docs/theory/prediction.md", f"loss of film exceeds {ends:g} times the smooth film")
@@ -157,7 +157,7 @@ def test_constants_of_the_prediction(states):
 
 
 def test_pressure_far_from_the_contact(states):
-    """Where the film ruptures, and what that adds to the load."""
+    """Where the film ruptures, and the contribution to the load."""
     angle = brentq(lambda x: np.tan(x) + 3.0 * np.tanh(3.0 * x), 1.6, 2.2)
     second = -0.8 * np.cos(angle) / np.cosh(3.0 * angle)
     load = quad(lambda x: 0.8 * np.cos(x) + second * np.cosh(3.0 * x), 0.0, angle)[0] / 0.8

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stress below the surface against closed forms, and what `pyehl.stress` makes of results."""
+"""Stress below the surface against closed forms, and results of `pyehl.stress`."""
 
 import csv
 import json
@@ -50,7 +50,7 @@ def largest(half_space: HalfSpace, pressure: Array, places: Array) -> tuple[floa
 
 
 def test_axis_of_a_circle() -> None:
-    """Johnson 1985, eq. 3.45, and the error that is stated covers what is off."""
+    """Johnson 1985, eq. 3.45; the stated error covers the deviation."""
     mesh, pressure = hertz()
     half_space, middle = HalfSpace(pressure.shape, mesh), POINTS // 2
     i = int(np.abs(X).argmin())
@@ -74,7 +74,7 @@ def test_shear_below_a_circle() -> None:
     assert depth == pytest.approx(0.481, abs=0.003)
 
 
-# Johnson 1985, table 4.1, nu = 0.3: short over long side, depth over the short side, shear over
+# Johnson 1985, table 4.1, nu = 0.3: short over long semi-axis, depth over the short one, shear over
 # p_h; to three digits, the depth to 0.01
 TABLE = [(0.2, 0.745, 0.322), (0.4, 0.665, 0.325), (0.6, 0.590, 0.323), (0.8, 0.530, 0.317)]
 
@@ -110,7 +110,7 @@ def test_line_contact() -> None:
 def test_high_friction_moves_the_maximum_shear_to_the_surface(
     friction: float, *, on_surface: bool
 ) -> None:
-    """From a coefficient of about 0.3 on, under a line; then it is the friction there or more."""
+    """From a coefficient of about 0.3 on, under a line; there it is at least the friction."""
     half_space, pressure = line()
     places = np.concatenate([[0.0], np.geomspace(0.01, 1.5, 30)])
     shear = [
@@ -125,7 +125,7 @@ def test_high_friction_moves_the_maximum_shear_to_the_surface(
 def test_line_contact_with_friction(z: float) -> None:
     """All components by McEwen's closed form (Johnson 1985, eqs 4.49 and 7.8), mu = 0.3.
 
-    The pressure of a node is the mean over its cell, as the deflections of the solver take it.
+    The pressure of a node is the mean over its cell, as for the deflections of the solver.
     """
     half_space, _ = line()
     mu, ends = 0.3, np.clip(np.append(X, 2.0 * X[-1] - X[-2]) - 0.5 * (X[1] - X[0]), -1.0, 1.0)
@@ -150,9 +150,9 @@ def test_line_contact_with_friction(z: float) -> None:
 
 
 def test_depths_follow_the_waves() -> None:
-    """The first depth is 0.4 over the shortest wavenumber; the layer of 1/k has rows around it."""
+    """The first depth is 0.4 over the highest wavenumber; the layer of 1/k has rows around it."""
     mesh, pressure = hertz()
-    # without the waves of the edge
+    # without the waves near the edge
     pressure = pressure**6
     smooth = depths(pressure, mesh, 1.0)
     for k in (20.0, 60.0):
@@ -228,7 +228,7 @@ def test_invariants() -> None:
 
 
 def test_fatigue_limits_are_met_by_their_own_tests() -> None:
-    """Fully reversed torsion and bending at their limits are both at the limit."""
+    """Fully reversed torsion and bending at their limits both give the limit."""
     time = np.linspace(0.0, 2.0 * np.pi, 73)
     torsion, bending = np.zeros((6, 73, 1)), np.zeros((6, 73, 1))
     torsion[3, :, 0], bending[0, :, 0] = 300.0 * np.sin(time), 450.0 * np.sin(time)
@@ -243,7 +243,7 @@ def test_fatigue_limits_are_met_by_their_own_tests() -> None:
 
 
 def test_smallest_sphere() -> None:
-    """Around a regular simplex its circumscribed sphere; around out-of-phase shear its circle."""
+    """For a regular simplex the circumscribed sphere; for out-of-phase shear its circle."""
     time = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
     path = np.zeros((6, 60, 2))
     path[3, :, 0], path[4, :, 0] = 2.0 + np.cos(time), np.sin(time)
@@ -268,7 +268,7 @@ def test_life_factor(bearing: str) -> None:
 
 
 def test_smooth_contact() -> None:
-    """A Moes case is in Hertz units; near the value of the dry contact at M = 1000."""
+    """A Moes case is in Hertz units; at M = 1000 close to the value of the dry contact."""
     ds = pyehl.solve(pyehl.Case(contact={"moes_m": 1000.0, "moes_l": 10.0}), "grid.points=129")
     below = pyehl.stress(ds)
     assert float(below.principal_shear_max) == pytest.approx(0.310, rel=0.01)
@@ -279,11 +279,11 @@ def test_smooth_contact() -> None:
 
 
 def test_friction_of_a_run() -> None:
-    """In sum the friction of the run; none where it states none, which is stated."""
+    """Its integral is the friction of the run; a run without friction has none, as stated."""
     ds = pyehl.solve(CASES / "mtm.nml", "grid.points=65")
     below = pyehl.stress(ds)
     surface = below.sigma_xz_Pa.isel(Z=0)
-    # body 1 is the faster one: the film holds it back, so that xz is positive
+    # body 1 is the faster one: the film retards it, so that xz is positive
     assert float(surface.max()) > 1e7
     assert float(pyehl.stress(ds, body=2).sigma_xz_Pa.isel(Z=0).min()) < -1e7
     assert f"mu_smooth = {float(ds.mu):.4g}" in below.attrs["friction_note"]
@@ -305,14 +305,14 @@ def test_rough_contact(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> No
     summary = json.loads((out / "summary.json").read_text())
     assert summary["near_surface_share"] > summary["near_surface_share_smooth"]
     assert sorted(path.name for path in out.iterdir()) == sorted(summary["files"])
-    # a dent in pure rolling: the same histories as under the smooth contact, but near it
+    # a dent in pure rolling: the same histories as under the smooth contact, except near it
     assert 0.3 < summary["fatigue_ratio"] < 0.8
 
 
 def test_mean_and_amplitude() -> None:
-    """Amplitude and mean of a smooth contact; both criteria of fatigue use them.
+    """Amplitude and mean of a smooth contact, used by both criteria of fatigue.
 
-    A pass from no stress to p and back has mean and amplitude of p/2 in its hydrostatic part.
+    A passage from zero stress to p and back has mean and amplitude of p/2 in its hydrostatic part.
     """
     ds = pyehl.solve(CASES / "mtm.nml", "grid.points=65")
     inside = np.maximum(1.0 - ds.X**2 - ds.Y**2, 0.0)
@@ -335,7 +335,7 @@ def test_mean_and_amplitude() -> None:
 
 
 def test_mean_and_amplitude_need_a_passage() -> None:
-    """A rough contact with too few instants has neither, which is stated."""
+    """A rough contact with too few instants has neither, as stated."""
     rough = pyehl.solve(CASES / "dent.nml", "grid.points=33", "output.frame_interval=0")
     below = pyehl.stress(rough, friction="none")
     assert "shear_amplitude" not in below
@@ -347,7 +347,7 @@ def test_mean_and_amplitude_need_a_passage() -> None:
 
 @pytest.mark.parametrize(("power", "singular"), [(0.0, True), (0.5, False), (1.0, False)])
 def test_depth_of_0_with_a_singular_edge(power: float, *, singular: bool) -> None:
-    """A traction that ends in a step has no finite stress at the surface: no depth of 0."""
+    """A traction with a step at its edge has infinite stress at the surface: no depth of 0."""
     ds = pyehl.solve(pyehl.Case(contact={"moes_m": 100.0, "moes_l": 5.0}), "grid.points=65")
     inside = np.maximum(1.0 - ds.X**2 - ds.Y**2, 0.0).transpose(*ds.P.dims).values
     ds["P"] = (ds.P.dims, np.where(inside > 0.0, inside**power, 0.0))
@@ -360,7 +360,7 @@ def test_depth_of_0_with_a_singular_edge(power: float, *, singular: bool) -> Non
 
 
 def test_predicted_contact() -> None:
-    """A prediction has the smooth contact under it, and more shear near the surface."""
+    """A prediction includes the smooth contact, and more shear near the surface."""
     result = pyehl.predict(CASES / "table1.nml", "surface.pixels=64")
     below = pyehl.stress(result, contamination=0.3)
     assert float(below.principal_shear_max_smooth) == pytest.approx(0.3115, rel=0.01)
@@ -368,7 +368,7 @@ def test_predicted_contact() -> None:
     rough, smooth = (below[f"principal_shear{end}"].sel(Z=near) for end in ("", "_smooth"))
     assert float(rough) > 1.15 * float(smooth)
     assert float(below.a_iso) > 0.1
-    # what the roughness adds is known to 15 % but at the edge, which it moves
+    # the contribution of the roughness is known to 15 % except at the edge, which it shifts
     added = float(below.near_surface_shear_inner - below.near_surface_shear_inner_smooth)
     assert float(below.near_surface_shear_inner_error) == pytest.approx(0.15 * added, rel=0.3)
     assert float(below.near_surface_shear_error) >= float(below.near_surface_shear_inner_error)
@@ -408,7 +408,7 @@ def test_results_without_fields() -> None:
 
 
 def test_evidence_is_what_the_page_shows(root: Path) -> None:
-    """Each row of the table of predicted beside simulated stress."""
+    """Each row of the table of predicted and simulated stress."""
     folder = root / "docs" / "evidence" / "subsurface"
     page = (folder / "README.md").read_text(encoding="utf-8")
     with (folder / "table.csv").open(newline="", encoding="utf-8") as stream:
@@ -428,7 +428,7 @@ def test_evidence_is_what_the_page_shows(root: Path) -> None:
         largest = value["largest_predicted"] / value["largest_simulated"] - 1.0
         assert f"| {' | '.join([*cells, f'{largest:+.2%}'])} |".replace("%", " %") in page
         near.append((value["near_simulated"] / value["near_smooth"], cells[4]))
-    # those where the roughness raises the near-surface shear by more than 10 %
+    # those in which the roughness raises the near-surface shear by more than 10 %
     rough = [off for rise, off in near if rise > 1.1]
     assert len(rough) >= 6
     assert sum(abs(float(off[:-1])) < 5.0 for off in rough) >= 6

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Texts as instruments, spreadsheets and people write them: each line, cell and unit."""
+"""Text files of instruments, spreadsheets and people: each line, cell and unit."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -28,7 +28,7 @@ Z = smooth()
 def lines(
     separator: str = "\t", word: str | None = None, *, decimal: str = ".", quoted: bool = False
 ) -> list[str]:
-    """Lines along x; a word in place of some points."""
+    """Lines along x; a word replaces some points."""
     done = []
     for j in range(NY):
         cells = [f"{v:.5f}".replace(".", decimal) for v in Z[:, j]]
@@ -61,7 +61,7 @@ WORDS = ["***", "*", "---", "-", "?", "void", "No Data", "no data", "N/A", "#N/A
 
 @pytest.mark.parametrize("word", WORDS)
 def test_a_word_in_place_of_a_height(tmp_path: Path, word: str):
-    """One point is missing, no line of the map."""
+    """The point is missing, but no line of the map."""
     for name, separator in (("tab.txt", "\t"), ("semicolon.csv", ";"), ("blank.txt", " ")):
         path = write(tmp_path / name, [*GWYDDION, *lines(separator, word)], end="\r\n")
         note = check(path, MISSING)
@@ -74,7 +74,7 @@ def test_words_for_missing_points(tmp_path: Path, word: str):
 
 
 def test_a_line_of_missing_points(tmp_path: Path):
-    """As the first one, and within; separators alone are one, too."""
+    """As the first one, and within; a line of separators counts, too."""
     row = "\t".join(["***"] * NX)
     for at, text in ((0, row), (5, row), (5, "\t" * (NX - 1))):
         table = lines()
@@ -84,7 +84,7 @@ def test_a_line_of_missing_points(tmp_path: Path):
 
 
 def test_an_unknown_word_in_a_table_is_refused(tmp_path: Path):
-    """With its line and column; a heading within the table is as well."""
+    """With its line and column; so is a heading within the table."""
     path = write(tmp_path / "map.txt", [*GWYDDION, *lines("\t", "three")])
     with pytest.raises(InputError, match=r"map\.txt:8:\d+: 'three' is no number"):
         read_scan(path)
@@ -106,7 +106,7 @@ def test_encodings(tmp_path: Path, encoding: str):
 
 @pytest.mark.parametrize("mark", ["utf-8", "utf-8-sig", "utf-16"])
 def test_a_byte_order_mark_does_not_swap_the_axes(tmp_path: Path, mark: str):
-    """An array has one x per line, with and without it, and all of its lines."""
+    """An array has one x per line, with and without it, and keeps all of its lines."""
     path = write(tmp_path / "map.csv", lines(","), mark, "\r\n")
     scan = read_scan(path, *SIZE[::-1], height_unit="um")
     assert scan.is_array
@@ -114,7 +114,7 @@ def test_a_byte_order_mark_does_not_swap_the_axes(tmp_path: Path, mark: str):
 
 
 def test_empty_cells_move_no_columns(tmp_path: Path):
-    """One a line, and as many as there are in the others; at the end of lines that are closed."""
+    """One per line, and as many as in the other lines; at the end of lines that are closed."""
     header = ["Width (um);30", "Height (um);21", "Unit;um"]
     table = [line.split(";") for line in lines(";")]
     missing = [(i, j) for j in range(NY) for i in (j,)]
@@ -200,7 +200,7 @@ def test_units_and_sizes_of_a_header(tmp_path: Path, header: list[str]):
     ],
 )
 def test_further_headers(tmp_path: Path, header: list[str]):
-    """Lines that begin with a separator, numbers of Fortran, marks that the header names."""
+    """Lines that begin with a separator, Fortran numbers, marks named in the header."""
     check(write(tmp_path / "map.dat", [*header, *("\t" + line for line in lines())]))
     fortran = [line.replace("\t", "D+00\t") + "D+00" for line in lines()]
     check(write(tmp_path / "map.dat", [*header, *fortran]))
@@ -211,7 +211,7 @@ def test_further_headers(tmp_path: Path, header: list[str]):
 
 
 def test_numbers_of_points_alone(tmp_path: Path):
-    """Above the table: they say which way the lines run, or that some are not there."""
+    """Above the table they state the direction of the lines, or that some are missing."""
     size = {"length_x": SIZE[0], "length_y": SIZE[1], "height_unit": "um"}
     check(write(tmp_path / "map.txt", ["20 14", *lines(" ")]), **size)
     turned = [" ".join(f"{v:.5f}" for v in row) for row in Z]
@@ -222,14 +222,14 @@ def test_numbers_of_points_alone(tmp_path: Path):
 
 
 def test_axes_and_lists_of_arrays(tmp_path: Path):
-    """Of `.npy` files as of text; the solver does not read them by itself."""
+    """From `.npy` files as from text; the solver alone does not read them."""
     x, y = STEP * np.arange(NX), STEP * np.arange(NY)
     table = np.block([[np.zeros((1, 1)), y[None, :]], [x[:, None], Z]])
     listed = np.array([(x[i], y[j], Z[i, j]) for i in range(NX) for j in range(NY)])
     for array in (table, listed):
         np.save(tmp_path / "map.npy", array)
         check(tmp_path / "map.npy", height_unit="um")
-    # in metres and with its size, an array is the solver's own matter
+    # in metres and with its size, the solver reads an array
     np.save(tmp_path / "map.npy", 1e-6 * table)
     group = {"kind": "map", "file": str(tmp_path / "map.npy"), "length_x": SIZE[0],
              "length_y": SIZE[1]}  # fmt: skip
@@ -241,7 +241,7 @@ def test_axes_and_lists_of_arrays(tmp_path: Path):
 
 
 def test_unused_header_lines_are_reported(tmp_path: Path):
-    """A factor that is not applied, a unit that is none of length."""
+    """A factor that is not applied, and a unit that is not a length."""
     header = ["Pixel size: 1.5 um", "Unit: um"]
     note = check(write(tmp_path / "map.csv", [*header, "Z scale: 0.1", *lines(";")]))
     assert "a line 'scale z' of 0.1 that was not applied" in note
@@ -250,7 +250,7 @@ def test_unused_header_lines_are_reported(tmp_path: Path):
 
 
 def points(scale: float = 1.0, form: str = "{:.6g};{:.6g};{:.5f}") -> list[str]:
-    """List of x, y and z, places in other units."""
+    """List of x, y and z, positions in other units."""
     return [
         form.format(scale * STEP * i, scale * STEP * j, Z[i, j])
         for j in range(NY)
@@ -274,7 +274,7 @@ def test_columns_with_units_of_their_own(tmp_path: Path, header: list[str]):
 
 
 def test_positions_in_another_unit_than_the_heights(tmp_path: Path):
-    """Named by no header: it is asked for, and 0.03 mm are no 0.03 um."""
+    """If the header does not name it, it is required: 0.03 mm are not 0.03 um."""
     path = write(tmp_path / "list.csv", points(1e-3))
     with pytest.raises(InputError, match=r"steps of 0.0015, .* surface\.lateral_unit"):
         read_scan(path, height_unit="um")
@@ -282,7 +282,7 @@ def test_positions_in_another_unit_than_the_heights(tmp_path: Path):
     assert "x and y in mm by surface.lateral_unit" in note
     check(path, length_x=SIZE[0], length_y=SIZE[1], height_unit="um")
     assert "x and y in um" in check(write(tmp_path / "um.csv", points()), height_unit="um")
-    # steps of 0.1 um, heights of 50 nm: a slope that no surface has
+    # steps of 0.1 um, heights of 50 nm: steeper than any surface
     path = write(tmp_path / "steep.csv", points(0.1 / STEP))
     with pytest.raises(InputError, match="slope of"):
         read_scan(path, height_unit="mm", lateral_unit="um")
@@ -338,7 +338,7 @@ def test_one_axis(tmp_path: Path):
 
 
 def test_tables_of_pandas(tmp_path: Path):
-    """With the index, the names of columns, both; they count, and have no length."""
+    """With the index, the names of columns, both; they are indices without lengths."""
     size = {"length_x": SIZE[0], "length_y": SIZE[1]}
     index = [f"{j},{line}" for j, line in enumerate(lines(","))]
     numbers = ",".join(map(str, range(NX)))
@@ -354,14 +354,14 @@ def test_tables_of_pandas(tmp_path: Path):
     "mark", ["-32768", "-9999", "32767", "1000001", "1e38", "-3.4e38", "99999"]
 )
 def test_marks_of_missing_points(tmp_path: Path, mark: str):
-    """Numbers far off all heights that programs write for a point that they have not."""
+    """Numbers far from all heights, which programs write for a missing point."""
     note = check(write(tmp_path / "map.txt", [*GWYDDION, *lines("\t", mark)]), MISSING)
     assert "4 heights" in note
     assert "marks of missing points" in note
 
 
 def test_a_height_that_occurs_too_often(tmp_path: Path):
-    """It may be a mark; it is kept, and stated."""
+    """It may be a mark; it is kept and reported."""
     z = np.random.default_rng(2).normal(size=(40, 30))
     marked = np.where(np.random.default_rng(3).uniform(size=z.shape) < 0.02, 0.0, z)
     np.save(tmp_path / "map.npy", 1e-8 * marked)
@@ -392,7 +392,7 @@ ZYGO = ['Zygo XYZ Data File - Format 1', '1 8 3 5 "Thu Jan 01 10:00:00 2024"', "
 
 @pytest.mark.parametrize("suffix", ["xyz", "txt", "asc", "dat"])
 def test_zygo_lists(tmp_path: Path, suffix: str):
-    """Places are numbers of pixels from the corner of line 4, whose size is in line 8."""
+    """Positions are numbers of pixels from the corner in line 4, whose size is in line 8."""
     listed = [
         f"{i + 3} {j + 2} " + ("No Data" if (i, j) in MISSING else f"{Z[i, j]:.6f}")
         for j in range(NY)
@@ -409,7 +409,7 @@ def test_zygo_lists(tmp_path: Path, suffix: str):
 
 @pytest.mark.parametrize("number", [1, 2])
 def test_zygo_phases(tmp_path: Path, number: int):
-    """Counts of phase in ten columns, after intensities or without them; 32768 counts in a wave."""
+    """Phase counts in ten columns, after intensities or without them; 32768 counts per wave."""
     count = 0.5 * 5.7e-07 / 32768
     phases = np.rint(1e-6 * Z / count).astype(int)
     for place in MISSING:
@@ -430,7 +430,7 @@ def test_zygo_phases(tmp_path: Path, number: int):
 
 
 def test_spip_and_wyko_keep_their_lines(tmp_path: Path):
-    """Formats that the library knows, with words in place of points, are counted here."""
+    """Formats that SurfaceTopography knows, with words in place of points, are counted here."""
     spip = ["# File Format = ASCII", "# x-pixels = 20", "# y-pixels = 14", "# x-length = 30000",
             "# y-length = 21000", "# Bit2nm = 1000"]  # fmt: skip
     check(write(tmp_path / "map.asc", [*spip, *lines("\t", "void")]), MISSING)
@@ -457,7 +457,7 @@ def test_profiles_are_named_as_such(tmp_path: Path):
 
 
 def test_missing_lines_are_reported(tmp_path: Path):
-    """Where a header has lengths alone, and in a list; an axis with a step too many is refused."""
+    """If a header has only lengths, and in a list; an axis with an extra step is refused."""
     scan = read_scan(write(tmp_path / "map.txt", [*GWYDDION, *lines()[:-2]]))
     assert "pixels of 1.5e-06 x 1.75e-06 m by the lengths of the header" in scan.note
     note = check(write(tmp_path / "list.csv", points()[:-3]),
@@ -474,7 +474,7 @@ def test_missing_lines_are_reported(tmp_path: Path):
 
 
 def test_places_with_too_few_digits_are_no_heights(tmp_path: Path):
-    """Steps of 2.44e-6 m written with seven decimals are equal to 2 % only."""
+    """Steps of 2.44e-6 m with seven decimals are equal only to 2 %."""
     rng = np.random.default_rng(106)
     places = [f"{2.44e-6 * k:.7f}" for k in range(12)]
     lines = [";".join(["m", *places[:9]])]
@@ -486,7 +486,7 @@ def test_places_with_too_few_digits_are_no_heights(tmp_path: Path):
 
 
 def test_places_in_mm_beside_heights_in_m_are_asked_for(tmp_path: Path):
-    """One unit for all three would make a map of 3 mm of one of 3 um."""
+    """One unit for all three would make a map of 3 mm from one of 3 um."""
     rng = np.random.default_rng(70)
     lines = [
         f"{4.97e-4 * i} {4.97e-4 * j} {rng.normal(0, 1e-7)}" for j in range(9) for i in range(7)

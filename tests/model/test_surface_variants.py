@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Valid files of instruments in unusual forms, and wrong headers: the reason is reported."""
+"""Unusual valid files of instruments, and wrong headers: the reason is reported."""
 
 import io
 import re
@@ -34,7 +34,7 @@ def same(path: Path, expected: np.ndarray = Z, atol: float = 1e-15, **keys: obje
 
 
 def x3p_members(z: np.ndarray) -> dict[str, bytes]:
-    """Members of an archive of heights, as the library writes it."""
+    """Members of an archive of heights, as SurfaceTopography writes it."""
     stream = io.BytesIO()
     Topography(np.ma.masked_invalid(z), SIZE, unit="m").to_x3p(stream)
     with zipfile.ZipFile(stream) as archive:
@@ -73,7 +73,7 @@ def test_x3p_with_paths_of_windows(tmp_path: Path):
 
 @pytest.mark.parametrize("form", ["{}", "{};{};{}"])
 def test_x3p_with_heights_in_the_xml(tmp_path: Path, form: str):
-    """Of each point z, or x;y;z; nothing where it is missing."""
+    """Each point as z, or x;y;z; a missing point as an empty entry."""
     data = "".join(
         "<Datum/>"
         if np.isnan(GAPPY[i, j])
@@ -100,7 +100,7 @@ def test_x3p_with_heights_in_the_xml(tmp_path: Path, form: str):
     ],
 )  # fmt: skip
 def test_the_reason_of_a_reader(tmp_path: Path, pattern: str, new: str, reason: str):
-    """It is shown: a format that is known is not called unknown."""
+    """It is reported: a known format is not called unknown."""
     path = pack(tmp_path / "scan.x3p", edited(x3p_members(Z), pattern, new))
     with pytest.raises(InputError, match=reason) as refused:
         read_scan(path)
@@ -123,7 +123,7 @@ def test_comments_of_tmd(tmp_path: Path, comment: bytes):
 
 
 def test_missing_points_of_nms(tmp_path: Path):
-    """The largest number of two bytes is no height."""
+    """The largest two-byte number is no height."""
     low, high = -0.2, 0.2
     raw = np.rint((1e6 * Z - low) / (high - low) * (2**16 - 2))
     raw[np.isnan(GAPPY)] = 2**16 - 1
@@ -132,7 +132,7 @@ def test_missing_points_of_nms(tmp_path: Path):
     struct.pack_into("<IIdd", data, 1368, NX, NY, 1e3 * STEP, 1e3 * STEP)
     (tmp_path / "scan.nms").write_bytes(bytes(data) + raw.T.astype("<u2").tobytes())
     same(tmp_path / "scan.nms", GAPPY, 1e-11)
-    # without its name it could be anything
+    # without the suffix its format is unknown
     (tmp_path / "scan.bin").write_bytes(bytes(data) + raw.T.astype("<u2").tobytes())
     with pytest.raises(InputError, match="of no format"):
         read_scan(tmp_path / "scan.bin")
@@ -162,7 +162,7 @@ def write_gwy(path: Path, *units: str) -> Path:
 
 
 def test_gwyddion_without_units(tmp_path: Path):
-    """The unit is asked for, and the file is not called damaged."""
+    """The unit is requested, and the file is not called damaged."""
     assert same(write_gwy(tmp_path / "scan.gwy", "m", "m")) == ""
     for units in ((), ("", "")):
         path = write_gwy(tmp_path / "scan.gwy", *units)
@@ -198,7 +198,7 @@ CheckType = 0
 
 @pytest.mark.parametrize("suffix", ["sdf", "txt", "dat"])
 def test_texts_of_a_known_format(tmp_path: Path, suffix: str):
-    """SDF is read as such, whatever its name is; what its header states wrong is refused."""
+    """SDF is recognised by its content; errors in its header are refused."""
     rows = "\n".join(" ".join("BAD" if np.isnan(v) else f"{1e6 * v:.12f}" for v in GAPPY[:, j])
                      for j in range(NY))  # fmt: skip
     path = tmp_path / f"scan.{suffix}"
@@ -234,7 +234,7 @@ def test_arrays_without_real_numbers(tmp_path: Path, array: np.ndarray, kind: st
 @pytest.mark.parametrize(("dtype", "mark"), [("i2", -32768), ("u2", 65535), ("f4", -9999.0),
                                              ("f8", np.inf), ("i4", 2147483647)])  # fmt: skip
 def test_marks_of_missing_points_in_arrays(tmp_path: Path, dtype: str, mark: float):
-    """Missing points of whole numbers; those of an array with an offset are heights."""
+    """Numbers that mark missing points; in an array with an offset the same are heights."""
     raw = np.rint(1e9 * Z).astype(float) + (300.0 if dtype == "u2" else 0.0)
     raw[np.isnan(GAPPY)] = mark
     np.save(tmp_path / "scan.npy", raw.astype(dtype))
@@ -247,7 +247,7 @@ def test_marks_of_missing_points_in_arrays(tmp_path: Path, dtype: str, mark: flo
 
 
 def test_readers_change_nothing_of_the_process(tmp_path: Path, capfd):
-    """What another thread prints while files are read goes where it should."""
+    """Output of another thread while files are read goes to the right stream."""
     (tmp_path / "scan.tif").write_bytes(b"II*\0" + bytes(range(250)) * 2)
     done = threading.Event()
 
@@ -273,7 +273,7 @@ GROUP = {"kind": "map", "length_x": SIZE[0], "length_y": SIZE[1]}
 
 
 def test_missing_points_of_masked_arrays():
-    """What is under a mask is no height: the points are interpolated, as those of a file are."""
+    """Masked values are no heights: the points are interpolated, as missing ones of a file are."""
     mask = np.isnan(GAPPY)
     spiky = np.ma.masked_array(np.where(mask, 1e-3, Z), mask)
     tile = in_memory(spiky, GROUP)
@@ -281,7 +281,7 @@ def test_missing_points_of_masked_arrays():
     assert f"{mask.sum()} missing points interpolated" in tile.origin
     other = in_memory(GAPPY, GROUP)
     assert other.heights == pytest.approx(tile.heights, abs=1e-20)
-    # those that are there, about their mean, are as they were
+    # the other points, less their mean, are unchanged
     shift = Z[~mask] - tile.heights[~mask]
     assert shift == pytest.approx(shift.mean(), abs=1e-18)
     for group in (GROUP | {"fill": "none"}, {"kind": "smooth"}):

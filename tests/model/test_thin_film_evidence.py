@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Films as thin as the roughness: docs/evidence/thin_film states what its tables say."""
+"""Films as thin as the roughness: the page docs/evidence/thin_film agrees with its tables."""
 
 from pathlib import Path
 
@@ -29,7 +29,7 @@ def known(evidence):
 
 
 def test_film_after_a_loss(evidence, page):
-    """`film_left` beside the means of the simulated film."""
+    """`film_left` against the means of the simulated film."""
     rows = evidence.read("film.csv")
     assert {row["place"] for row in rows} == set(evidence.RINGS)
     near, beyond = [], []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The prediction for lubricants that thin in the flow, and the deformed surface in numbers."""
+"""The prediction for shear-thinning lubricants, and the deformed surface in numbers."""
 
 import csv
 import math
@@ -74,7 +74,7 @@ def test_sliding_stress_solves_the_law():
 
 
 def waves_at(case: Case) -> tuple[np.ndarray, float]:
-    """T at the centre of a few waves, and by how much the lubricant is thinner for the inlet."""
+    """T at the centre for a few waves, and how much thinner the lubricant is in the inlet."""
     settings = case.resolve()
     o, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     contact = solve_contact(settings)
@@ -144,7 +144,7 @@ def test_a_law_in_the_friction_alone_states_no_error():
 def by_quadrature(
     law: str, exponent: float, b: float, s: tuple[float, float], points: int
 ) -> list[float]:
-    """phi_x, phi_y and the mean stress along X, by Gauss's rule and SciPy's search for roots."""
+    """phi_x, phi_y and the mean stress along X, by Gauss quadrature and SciPy's root search."""
     nodes, weights = np.polynomial.legendre.leggauss(points)
     xi, weights = 0.5 * nodes[:, None], 0.5 * weights[:, None]
 
@@ -167,7 +167,7 @@ def by_quadrature(
 
 
 def test_reference_values(root):
-    """The table of docs/theory/thinning.md: quadrature, factors of Python, what Fortran tests."""
+    """The table of docs/theory/thinning.md: quadrature, factors of Python and Fortran tests."""
     text = plain(root / "docs" / "theory" / "thinning.md")
     source = (root / "fortran" / "test" / "test_flow.f90").read_text(encoding="utf-8")
     calls = [re.sub("_dp", "", line) for line in re.findall(r"call agree\(.*by_.*\)", source)]
@@ -192,7 +192,7 @@ def test_reference_values(root):
 
 
 def test_error_of_six_points_across_the_film():
-    """What they leave where a gradient outweighs the sliding, as docs/theory/thinning.md states."""
+    """Error where a gradient outweighs the sliding, as docs/theory/thinning.md states."""
     case = "carreau", 0.5, 2.0, (30.0, 0.1)
     change = np.array(by_quadrature(*case, points=6)) / by_quadrature(*case, points=200) - 1.0
     assert 100.0 * change == pytest.approx([-0.17, -0.17, -1.75], abs=0.01)
@@ -236,10 +236,10 @@ def test_the_deformed_surface_in_numbers():
     s, response = result.summary, result.friction.response
     assert s["rms_deformed_m"] == pytest.approx(np.std(response.deformed))
     assert s["lambda_ratio_deformed"] == pytest.approx(s["h_min_m"] / s["rms_deformed_m"])
-    # the centre of the contact meets every point of the tile, in the waves of its own place
+    # the centre of the contact meets every point of the tile, in waves of its local response
     assert s["p_rise_max_Pa"] > 2.0 * s["p_rise_rms_Pa"]
     assert s["p_rise_rms_Pa"] == pytest.approx(s["rms_pressure_Pa"], rel=0.1)
-    # pressures under the names of a run: the smooth contact is that of a run on the same grid
+    # pressures with the names of a run: the smooth contact is that of a run on the same grid
     smooth = summary_of(pyehl.solve(table_1(), ["surface.kind=smooth", "grid.points=257"]))
     assert s["p_max_Pa"] == smooth["p_max_Pa"]
     assert s["p_max_Pa"] < s["p_max_rough_Pa"] <= s["p_max_Pa"] + s["p_rise_max_Pa"]
@@ -259,7 +259,7 @@ def test_waves_that_a_grid_leaves_out():
 
 
 def test_predicted_start_omits_unresolved_waves():
-    """They would be too much for a linear response; without them the start is that of the rest."""
+    """With them the response would not be linear; without them the start contains the rest."""
     x, y = np.linspace(-2.5, 1.5, 65), np.linspace(0.0, 2.0, 33)
     low, high = (
         starting_pressure(
@@ -294,8 +294,8 @@ ERRORS = {
 }
 
 
-# Largest deviations and how many the stated errors cover: of those in view when the error of the
-# film was chosen, and of those predicted before they were simulated
+# Largest deviations, and how many the stated errors cover: of the results from which the error of
+# the film was derived, and of those predicted before they were simulated
 
 
 @pytest.mark.parametrize("name", ["e1", "e8"])

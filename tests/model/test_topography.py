@@ -41,7 +41,7 @@ def test_deterministic_modulus_lies_on_the_power_law(pixels, rolloff):
     scaled = c2d * np.where(q > 0.0, q, 1.0) ** (2 + 2 * 0.6)
     assert c2d[centre] < 1e-12 * c2d.max()
     scaled[centre] = scaled[0, 0]
-    # all of them, the Nyquist row and column and the self-conjugate corners too
+    # all of them, the Nyquist row and column and the self-conjugate corners, too
     assert scaled == pytest.approx(scaled[0, 0], rel=1e-6)
 
 
@@ -60,7 +60,7 @@ def test_gaussian_modulus_scatters_about_the_power_law():
 
 
 def test_share_of_the_longest_waves():
-    """59 % of the variance of the table 1 surface sits at |q| = 2 pi/L."""
+    """59 % of the variance of the table 1 surface is at |q| = 2 pi/L."""
     qx, qy, c2d = surfaces.psd_2d(surface(256))
     q = np.hypot(qx[:, None], qy[None, :])
     longest = np.isclose(q, 2 * np.pi / LENGTH)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/validation.md against its stored tables, and some of their rows against this build."""
+"""docs/validation.md against its stored tables; some of their rows against this build."""
 
 import csv
 import runpy
@@ -22,7 +22,7 @@ def rows(root: Path, name: str) -> list[dict[str, str]]:
 
 
 def test_rows_of_the_other_programs(root: Path, made: dict[str, Any]):
-    """How far two rows are apart, and what Carreau's law takes of the film."""
+    """Deviations between two rows, and film reduction by Carreau's law."""
     pages = "validation.md", "evidence/validation/README.md"
     text = "".join(plain(root / "docs" / page) for page in pages)
     with (root / "pyehl/studies/references/smooth.csv").open(encoding="utf-8") as stream:

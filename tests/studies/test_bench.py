@@ -51,7 +51,7 @@ def test_skips_change_nothing(tmp_path: Path, capsys, monkeypatch):
     for row in rows:
         assert row["difference"] <= row["allowed"] < 0.05
         assert row["seconds"] > 0.0
-    # the kept contact and the one smooth solution give the same bits
+    # the kept contact and the solved one give the same bits
     assert [row["difference"] for row in rows[4:]] == [0.0, 0.0]
 
 
@@ -106,14 +106,14 @@ def test_skips_of_smooth_contacts():
 
 @pytest.mark.long
 def test_smooth_cases_beside_the_circle(monkeypatch):
-    """Rows of a law and of an ellipse with the same equations; seconds per node by those."""
-    # that of the benchmark has as many nodes as the circle
+    """Rows of a law and of an ellipse with the same equations; time per node over the circle's."""
+    # the line of the benchmark has as many nodes as the circle
     monkeypatch.setattr(smooth, "RADIUS_RATIO", 0.1)
     rows = smooth.smooth_rows([129], [1], ["mlmi"], 1000.0, 10.0, smooth.CASES, repeats=1)
     assert [row["case"] for row in rows] == ["circle", "law", "ellipse"]
     assert [row["status"] for row in rows] == ["converged"] * 3
     films = [row["H_c"] for row in rows]
-    # the law hardly thins what rolls; an ellipse has a film of its own
+    # the law hardly thins in nearly pure rolling; an ellipse has another film
     assert films[1] == pytest.approx(films[0], rel=5e-3)
     assert films[2] > 1.05 * films[0]
     assert rows[0]["ratio"] == 1.0
@@ -135,7 +135,7 @@ def test_steps_of_two_benchmark_problems(monkeypatch):
     monkeypatch.setattr(step, "CASES", (plain, beside))
     rows = step.step_rows([33], [1], problems=[plain, beside], front=-1.0, steps=3)
     assert rows[0]["ratio"] is None
-    # seconds of each node by those of the circle
+    # seconds per node over those of the circle
     assert rows[1]["ratio"] > 0.0
     assert len(rows[1]["seconds_of_steps"]) == 3
 
@@ -150,7 +150,7 @@ def test_problems_of_the_step_benchmark_are_cases():
 
 @pytest.mark.slow
 def test_stress_campaign(tmp_path: Path, capsys):
-    """A tiny campaign: it ends, nothing is wrong, the same seed draws the same cases."""
+    """A tiny campaign: it ends without a fault, and the same seed draws the same cases."""
     words = ["--cases", "8", "--seed", "3", "--points", "65", "--jobs", "1"]
     assert stress.main([*words, "-o", str(tmp_path / "s")]) == 0
     assert "checked" in capsys.readouterr().out
@@ -166,7 +166,7 @@ def test_stress_campaign(tmp_path: Path, capsys):
 
 @pytest.mark.long
 def test_interrupted_stress_keeps_what_is_done(root: Path, tmp_path: Path):
-    """By SIGTERM: a sentence, status 130, and the rows that are finished stay in the journal."""
+    """By SIGTERM: a sentence, status 130, and the finished rows stay in the journal."""
     folder = tmp_path / "s"
     words = ["--cases", "100", "--points", "65", "--jobs", "1"]
     process = subprocess.Popen(
@@ -212,7 +212,7 @@ def test_cases_of_a_campaign_cover_what_can_be_asked_for():
     assert max(case.moes_l for case in cases) > 24.0
     moving = [case for case in cases if case.values.get("surface.velocity_ratio")]
     assert {case.values["time.scheme"] for case in moving} == {"narrow", "paper"}
-    # every run has a bound: steps asked for, or few enough until the mean can settle
+    # every run has a limit: a number of steps, or few enough until the mean can settle
     for case in moving:
         assert case.values["time.steps"] in (0, stress_cases.MAX_STEPS[case.points])
 
@@ -273,7 +273,7 @@ def test_fields_that_violate_a_condition_are_detected(tmp_path: Path):
 
 @pytest.mark.long
 def test_contacts_of_machines(tmp_path: Path, capsys, monkeypatch):
-    """A handful on a coarse grid: the table, the rows, the ratio to the ball on disc."""
+    """A few on a coarse grid: the table, the rows, the ratio to the ball on disc."""
     monkeypatch.setattr(machines, "SETTINGS", {"solver.threads": 1, "grid.points": 129})
     words = ["--seed", "2", "--count", "4"]
     assert machines.main([*words, "--fine", "-o", str(tmp_path / "m.json")]) == 0
@@ -292,7 +292,7 @@ def test_contacts_of_machines(tmp_path: Path, capsys, monkeypatch):
     assert counts["all"]["largest_seconds"] == max(row["seconds"] for row in rows)
     (ball,) = (row for row in rows if row["kind"] == "ball on disc")
     assert ball["points_y"] is None
-    # twice the nodes move the film by about three times the error of the grid
+    # twice the nodes change the film by about three times the grid error
     assert abs(ball["H_c"] - ball["H_c_fine"]) < 2.0 * ball["H_c_error_grid"]
 
 
@@ -328,7 +328,7 @@ def test_line_contacts(tmp_path: Path):
 
 
 def test_contacts_that_are_no_case_are_counted():
-    """So slow that M is beyond the largest one."""
+    """So slow that M is above the limit of a case."""
     contact = machines.draw(1, 3)[0]
     values = contact.values | {"contact.mean_velocity": 1e-6}
     contact = replace(contact, values=values)
@@ -360,7 +360,7 @@ def test_stated_errors_that_miss_are_counted():
 
 @pytest.mark.long
 def test_mutated_inputs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    # it goes there, in a process of its own
+    # the function changes to this folder; normally it runs in a separate process
     monkeypatch.chdir(tmp_path)
     result = faults_inputs.run_chunk(5, 40, tmp_path, main)
     assert result["bad"] == []
@@ -462,7 +462,7 @@ def test_cheapest_setting():
 
 @pytest.mark.long
 def test_predictions_at_a_boundary_film_beside_solutions(tmp_path: Path, capsys):
-    """One contact that touches; its numbers belong together, and its load shares agree."""
+    """One contact that touches; its numbers are consistent, and its load shares agree."""
     (touching,) = [c for c in mixed.draw(4, 1, (65,)) if 0.7 < c.over < 0.9][:1]
     rows = mixed.compare(touching, simulate=False)
     assert [row["kind"] for row in rows] == ["smooth", "vanishing"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A study on the workers of a dask scheduler: a worker that is killed takes nothing with it."""
+"""A study on workers of a dask scheduler: killing a worker loses no result."""
 
 import csv
 import json

@@ -36,7 +36,7 @@ def study(cases: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, 
 
 
 def rows_of(name: str, points: int) -> dict[str, list[Any]]:
-    """Keys of the rows of a shipped table on one grid, to vary together."""
+    """Keys of the rows of a shipped table on one grid, to be varied together."""
     table = read_reference(name)
     rows = [row for row in table.rows if row.keys["grid.points"] == points]
     vary = {key: [row.keys[key] for row in rows] for key in table.keys}
@@ -47,7 +47,7 @@ def rows_of(name: str, points: int) -> dict[str, list[Any]]:
 def test_own_references(
     cases: Path, tmp_path: Path, name: str, points: int, values: int, capsys: Any
 ):
-    """The tables of smooth and wavy contacts, on the grid that takes seconds."""
+    """The tables of smooth and wavy contacts, on a grid that takes seconds."""
     folder = tmp_path / name
     pyehl.sweep(
         cases / "quick.nml",
@@ -97,7 +97,7 @@ def test_rows_without_results(study: tuple[Path, list[float]], tmp_path: Path, c
 
 
 def test_a_single_result(cases: Path, tmp_path: Path):
-    """Keys are those of the case, varied or not; a row of another case is left out."""
+    """Keys are those of the case, varied or not; a row of another case is not compared."""
     data = pyehl.solve(cases / "quick.nml", "grid.points=65", output=tmp_path / "one")
     value = float(data.H_c)
     table = write(
@@ -133,7 +133,7 @@ def test_any_csv(tmp_path: Path):
     assert main(["compare", str(rows), str(table)]) == 0
     strict = write(tmp_path / "strict.csv", "contact.load,mu,mu_atol", "200,0.051,0.0002")
     assert main(["compare", str(rows), str(strict)]) == 1
-    # nothing states what the temperature was
+    # nothing states the temperature
     other = write(tmp_path / "other.csv", "lubricant.temperature,mu,mu_atol", "40,0.051,0.002")
     assert main(["compare", str(rows), str(other)]) == 2
     for text in ("mu\n", "mu\n1,2\n3,4,5\n"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl stribeck``: columns, what theta_2 is taken for, where full film ends, measured data."""
+"""``pyehl stribeck``: columns, the basis of theta_2, the end of full film, measured data."""
 
 import csv
 import io
@@ -110,14 +110,14 @@ def test_full_simulation_at_some_points(wave: tuple[Path, str]):
 
 @pytest.mark.long
 def test_smooth_surfaces_have_the_ratio_one(cases: Path, tmp_path: Path):
-    """Beside rough ones: the same film and the same coefficient of the smooth contact."""
+    """Smooth and rough ones give the same film and coefficient of the smooth contact."""
     case = str(cases / "table1.nml")
     words = ("--set", "lubricant.shear_law=eyring", "--set", "grid.points=129")
     words += ("--speed", "0.5,2", "--slide-to-roll", "0.02,0.2")
     reported, _ = run(case, *words, "--set", "surface.kind=smooth", "-o", str(tmp_path / "s"))
     assert "and a prediction" not in reported
     run(case, *words, "--set", "surface.pixels=64", "-o", str(tmp_path / "r"))
-    # which is no finding
+    # a ratio of one is not reported
     assert "\nmu_r/mu_s  " not in reported
     smooth, rough = table(tmp_path / "s"), table(tmp_path / "r")
     assert len(smooth) == len(rough) == 4
@@ -133,7 +133,7 @@ def test_smooth_surfaces_have_the_ratio_one(cases: Path, tmp_path: Path):
 
 
 def test_temperature_and_load(cases: Path, tmp_path: Path):
-    """Over the temperature the oil gets thinner by its data sheet, and the film with it."""
+    """With rising temperature the oil thins by its data sheet, and with it the film."""
     text = (cases / "table1.nml").read_text().replace("   viscosity = 0.04", "   !")
     sheet = "&lubricant\n   kinematic_viscosity_40 = 46.0\n   kinematic_viscosity_100 = 7.0"
     (tmp_path / "oil.nml").write_text(text.replace("&lubricant", sheet))
@@ -218,15 +218,15 @@ def test_mean_over_surfaces_and_the_end_of_full_film(cases: Path, tmp_path: Path
     assert float(fast["mu_ratio"]) == pytest.approx(np.mean(ratios), rel=1e-9)
     assert float(fast["mu_ratio_spread"]) == pytest.approx(np.std(ratios, ddof=1), rel=1e-6)
     errors = [p.summary["mu_ratio_model_error"] for p in each]
-    # beyond what the model was measured on there is no error
+    # outside the measured range of the model there is no error
     assert fast["mu_ratio_model_error"] == ("" if None in errors else repr(max(errors)))
-    # Newtonian at this pressure: the coefficient has no meaning and is not there
+    # Newtonian at this pressure: the coefficient has no meaning and is missing
     assert fast["mu"] == ""
     assert "full film ends between contact.mean_velocity = 0.1 and 4" in reported
 
 
 def test_pattern_of_a_map_of_one_wave_is_that_wave(tmp_path: Path):
-    """The likeness for any surface gives the wave itself where the surface is one."""
+    """The equivalent wave of any surface is the wave itself if the surface is one."""
     point = OperatingPoint()
     wavelength = 0.4 * point.hertz_radius
     tile = harmonic(3e-8, wavelength, wavelength, (32, 32))
@@ -288,7 +288,7 @@ def test_curves_that_are_refused(cases: Path, tmp_path: Path, words: list[str], 
 
 
 def test_ends_of_a_curve_state_the_reason(cases: Path, tmp_path: Path):
-    """A load that no grid solves, reported in words; a ratio larger than any that was compared."""
+    """A load that no grid solves, reported in words; a ratio larger than any compared one."""
     words = ("--set", "surface.pixels=64", "--set", "grid.points=65", "-o")
     reported, complaint = run(
         str(cases / "table1.nml"), "--speed", "0.005,4", *words, str(tmp_path / "1"), expect=1
@@ -313,7 +313,7 @@ def test_ends_of_a_curve_state_the_reason(cases: Path, tmp_path: Path):
 
 @pytest.mark.long
 def test_a_point_without_a_smooth_solution_is_not_solved(cases: Path, tmp_path: Path):
-    """It has a predicted ratio, but no film on the grid; measured coefficients fit the others."""
+    """It has a predicted ratio, but no film on the grid; the other point has a coefficient."""
     (tmp_path / "m.csv").write_text(f"{KEY},mu\n1.0,0.05\n")
     words = ("--set", "surface.pixels=64", "--set", "grid.points=65", "--set")
     words += ("lubricant.shear_law=eyring", "--speed", "0.02,4")
@@ -327,7 +327,7 @@ def test_a_point_without_a_smooth_solution_is_not_solved(cases: Path, tmp_path: 
 
 
 def test_a_curve_without_results_states_no_full_film(cases: Path, tmp_path: Path):
-    """Neither words nor pictures speak of a film that no point has."""
+    """Neither words nor pictures mention a film that no point has."""
     words = ("--set", "surface.kind=smooth", "--set", "grid.points=65", "--speed", "0.003,0.005")
     reported, complaint = run(
         str(cases / "table1.nml"), *words, "-o", str(tmp_path / "out"), expect=1
@@ -341,7 +341,7 @@ def test_a_curve_without_results_states_no_full_film(cases: Path, tmp_path: Path
 
 
 def test_a_ratio_beyond_linear_response_leaves_the_film(cases: Path, tmp_path: Path):
-    """Film and Lambda are known: the point is judged by them, and the ratio alone is missing."""
+    """Film and Lambda are known: they classify the point, and only the ratio is missing."""
     words = ("--set", "surface.pixels=128", "--set", "surface.rms_height=5e-8", "--set")
     words += ("surface.hurst=0.3", "--set", "grid.points=257", "--speed", "0.84,4")
     reported, complaint = run(str(cases / "table1.nml"), *words, "-o", str(tmp_path))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every key that a smooth contact obeys, predictions, curves and fits obey: over the key table."""
+"""Runs, predictions, curves and fits use each key of a smooth contact: over the key table."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -81,7 +81,7 @@ CARREAU = THINS | {
 HEATED = SHEET | {"lubricant.thermal_reduction": True, "contact.slide_to_roll": 0.5}
 LAYER = {"lubricant.boundary_film": 1e-9}
 
-# By key: its value, and what the case needs beside it
+# By key: its value, and other keys that it requires
 VALUES: dict[str, tuple[Any, Mapping[str, Any]]] = {
     "contact.moes_m": (150.0, {"contact.moes_l": 5.0}),
     "contact.moes_l": (6.0, {"contact.moes_m": 200.0}),
@@ -164,7 +164,7 @@ VALUES: dict[str, tuple[Any, Mapping[str, Any]]] = {
     )
     for name in names.split()
 } | {"lubricant.yasutomi_viscosity": (5e11, SI | YASUTOMI)}  # fmt: skip
-# Keys of a line contact, which has no prediction, curve or fit: a run alone obeys them
+# Keys of a line contact, used only by runs: there is no prediction, curve or fit
 LINE: dict[str, Mapping[str, Any]] = {
     "contact.shape": {"contact.moes_m_line": 20.0},
     "contact.moes_m_line": {"contact.moes_m_line": 20.0},
@@ -175,7 +175,7 @@ LINE: dict[str, Mapping[str, Any]] = {
         "contact.radius": 0.01,
     },
 }
-# Keys of a roller, which only runs obey
+# Keys of a roller, used only by runs
 END: dict[str, Mapping[str, Any]] = {
     "contact.length": {},
     "contact.misalignment": {"contact.misalignment": 1e-4},
@@ -194,19 +194,19 @@ END |= {
     for name, keys in END.items()
     if keys and name != "contact.misalignment"
 }
-# A layer of oil meets smooth surfaces: predictions, curves and fits of rough ones have none
+# A layer of oil requires smooth surfaces: predictions, curves and fits have rough ones
 SMOOTH = ("inlet.film", "inlet.film_hertz", "inlet.passages", "inlet.replenishment")
 # A table of viscosities and one of a profile are files
 TABLE, PROFILE = "lubricant.table", ("contact.profile_file", "contact.profile_file_2")
 ROUGH = {"surface.kind": "harmonic", "surface.amplitude_over_film": 0.1}
-# Groups that are no part of a smooth contact (but a velocity ratio is a slide-to-roll ratio), and
-# the duty, which predictions refuse
+# Groups that are no part of a smooth contact (although a velocity ratio is a slide-to-roll ratio),
+# and the duty, which predictions refuse
 OTHERS = ("surface", "second_surface", "time", "duty", "psd", "output", *MACHINES)
 
 
 def test_every_key_has_a_value():
     """A new key of the table fails here until it has a value in this test."""
-    # what a lubricant has that is not for input stands with the key that it follows from
+    # keys of a lubricant that are no input are tested with the key that they follow from
     inside = {
         name for name, key in KEYS.items() if name.partition(".")[0] not in OTHERS and key.for_input
     }
@@ -216,7 +216,7 @@ def test_every_key_has_a_value():
 
 @pytest.mark.parametrize("key", END)
 def test_commands_without_rollers_refuse_them(key: str):
-    """Rather than solved as a point: prediction, `fit-lubricant` and the app."""
+    """They are not solved as points: by prediction, `fit-lubricant` and the app."""
     roller = {
         "contact.shape": "roller",
         "contact.load": 2000.0,
@@ -242,7 +242,7 @@ def test_a_layer_of_oil_is_refused_beside_roughness():
 
 @pytest.mark.parametrize("key", LINE)
 def test_commands_without_line_contacts_refuse_them(key: str):
-    """Rather than solved as a point: `fit-lubricant` and the app."""
+    """They are not solved as points: by `fit-lubricant` and the app."""
     case = pyehl.Case.from_text("", {"contact.shape": "line"} | LINE[key] | ROUGH | POINTS)
     for asked in (
         lambda: OperatingPoint.from_settings(case.resolve()),  # first of a fit
@@ -260,7 +260,7 @@ def fields(text: str) -> tuple[Array, Array, str]:
 
 
 def made(key: str, tmp_path: Path) -> pyehl.Case:
-    """A rough case with a value of a key that is not its default."""
+    """A rough case with a value of a key other than its default."""
     if key == TABLE:
         rows = [f"{p},{t},{0.04 * np.exp(1.6e-8 * p - 0.03 * (t - 40))}"
                 for t in (40, 80) for p in (0.0, 4e8, 8e8, 1.6e9)]  # fmt: skip
@@ -277,7 +277,7 @@ def made(key: str, tmp_path: Path) -> pyehl.Case:
 
 @pytest.mark.parametrize("key", [*VALUES, TABLE])
 def test_the_contact_of_a_prediction_is_that_of_a_run(key: str, tmp_path: Path):
-    """Bit for bit, but for the friction: with its boundary film where it has one."""
+    """Bit for bit, except for the friction; with its boundary film if it has one."""
     case = made(key, tmp_path)
     text = smooth_case(case.resolve(), boundary=True)
     predicted = fields(pyehl.Case.from_text(text, POINTS).text)
@@ -325,7 +325,7 @@ def test_a_prediction_without_a_border_pressure():
 
 
 def test_the_grid_of_a_run_is_not_that_of_a_prediction():
-    """The keys that `cases/README.md` names: the prediction has grids of its own."""
+    """The keys that `cases/README.md` names: the prediction has its own grids."""
     case = pyehl.Case.from_text("", SI | ROUGH | POINTS)
     for name, value in zip(OF_RUN, (129, 129, 1e-2, 257), strict=True):
         other = case.with_options({f"grid.{name}": value})
@@ -333,7 +333,7 @@ def test_the_grid_of_a_run_is_not_that_of_a_prediction():
 
 
 def test_the_app_keeps_every_key_but_its_own(tmp_path: Path):
-    """A case that is opened keeps what has no control, in both of its contacts."""
+    """A case that is opened keeps keys without a control, in both of its contacts."""
     for key in ("grid.x_inlet", "grid.y_extent", "solver.accuracy", "lubricant.density_law"):
         case = made(key, tmp_path)
         position, _ = from_case(case.with_options("surface.kind=smooth"))

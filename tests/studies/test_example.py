@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The example of the how-to page of Stribeck curves: its data are made anew."""
+"""The example of the how-to page of Stribeck curves: its data are reproduced."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -21,7 +21,7 @@ def make(script: Callable[[str], ModuleType]) -> ModuleType:
 
 @pytest.fixture(scope="module")
 def data(make: ModuleType) -> dict[tuple[str, str, float], list[Row]]:
-    """Curves by surface, law and slide-to-roll ratio; ten points of rising speed each."""
+    """Curves by surface, law and slide-to-roll ratio; ten points each, with increasing speed."""
     result = make.stored()
     curves = {
         (surface, law, slip): list(make.rows(result, surface, law, slip))
@@ -37,7 +37,7 @@ def data(make: ModuleType) -> dict[tuple[str, str, float], list[Row]]:
 def test_the_data_are_made_anew(
     make: ModuleType, data: dict, tmp_path: Path, surface: str, law: str
 ):
-    """To the digits that the sentences have, with a margin for compilers."""
+    """To the digits in the sentences, with a margin for compilers."""
     row = data[surface, law, 0.1][3]
     (made,) = make.curve(surface, law, tmp_path, row["contact.mean_velocity"], (0.1,))
     assert made["status"] == row["status"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl fit-lubricant``: laws that made a traction curve are found again; refusals."""
+"""``pyehl fit-lubricant``: laws that made a traction curve are found from it; refusals."""
 
 import json
 from pathlib import Path
@@ -26,7 +26,7 @@ def case(tmp_path: Path) -> Path:
 
 
 def curve(case: Path, noise: float = 0.0, **law: object) -> list[tuple[float, float]]:
-    """Friction of solved contacts with a law, and noise of a relative size."""
+    """Friction of solved contacts with a law, with relative noise."""
     random = np.random.default_rng(1)
     result = []
     for ratio in RATIOS:
@@ -64,7 +64,7 @@ def test_the_law_behind_a_curve_is_found(case: Path, tmp_path: Path, law: dict[s
 
 
 def test_noise_is_in_the_confidence(case: Path, tmp_path: Path):
-    """With noise of 2 % the interval holds the truth, and is as wide as by linear statistics."""
+    """With noise of 2 % the interval contains the true value, and is as wide as expected."""
     data = write(tmp_path / "data.csv", curve(case, 0.02, shear_law="eyring", eyring_stress=6.3e6))
     (stress,) = pyehl.fit_lubricant(data, case, points=65).parameters
     assert stress.low < 6.3e6 < stress.high
@@ -83,7 +83,7 @@ def test_the_folder(case: Path, tmp_path: Path, capsys: pytest.CaptureFixture[st
     summary = json.loads((out / "summary.json").read_text())
     assert sorted(path.name for path in out.iterdir()) == summary["files"]
     assert set(summary) == {q.name for q in schema.QUANTITIES if "fit" in q.kinds}
-    # what is to be pasted makes a case that runs, with the friction of the table
+    # the printed keys make a valid case, with the friction of the table
     pasted = tmp_path / "pasted.nml"
     law = (out / "lubricant.nml").read_text().split("\n", 1)[1]
     pasted.write_text(CASE.replace("temperature = 60.0 /", f"temperature = 60.0\n{law}"))
@@ -119,7 +119,7 @@ def test_bad_data(case: Path, tmp_path: Path, text: str, words: list[str]):
 
 
 def test_weights_are_not_dropped():
-    """One error of none refuses a fit; zeros alone stand for errors that are not known."""
+    """An error of zero refuses a fit; if all are zero, the errors are taken as unknown."""
     assert (weights(np.zeros(3)) == 1.0).all()
     assert weights(np.array([0.1, 0.2])) == pytest.approx([10.0, 5.0])
     for wrong in (0.0, -0.1):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A study is resumed by the same version, with the same case and maps; else it is refused."""
+"""A study is resumed only by the same version, with the same case and maps."""
 
 import io
 from contextlib import redirect_stderr, redirect_stdout
@@ -14,7 +14,7 @@ from pyehl.studies import study as study_module
 
 
 def pyehl_(command: str, folder: Path, *words: str, expect: int = 0) -> str:
-    """Run a command of studies in this process; what it printed."""
+    """Run a command of studies in this process; returns its output."""
     reported = io.StringIO()
     with redirect_stdout(reported), redirect_stderr(reported):
         status = main([command, *words, "-o", str(folder)])
@@ -28,7 +28,7 @@ def heights(seed: int) -> np.ndarray:
 
 @pytest.fixture
 def mapped(tmp_path: Path) -> tuple[Path, list[str]]:
-    """A case with a height map of a relative name, and the words of a study of it."""
+    """A case with a height map of a relative name, and the arguments of a study of it."""
     (tmp_path / "in").mkdir()
     np.save(tmp_path / "in" / "scan.npy", heights(0))
     text = "&surface kind = 'map' file = 'scan.npy' length_x = 8e-4 length_y = 8e-4 /\n"
@@ -49,7 +49,7 @@ def test_a_study_whose_map_has_changed_is_refused(mapped: tuple[Path, list[str]]
 
 
 def test_a_study_goes_on_where_its_map_has_moved(mapped: tuple[Path, list[str]]):
-    """What the map is counts, not where it lies; the same name elsewhere is another map."""
+    """The content of the map counts, not its path; another map of the same name is refused."""
     folder, words = mapped
     (folder / "in").rename(folder / "moved")
     reported = pyehl_("sweep", folder / "out", str(folder / "moved" / "case.nml"), *words)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The journal of a study: what is in it stays in it, whatever happens to process or file."""
+"""The journal of a study: rows are kept, whatever happens to process or file."""
 
 import re
 import resource
@@ -37,7 +37,7 @@ def test_rows_come_back(tmp_path: Path):
 
 
 def test_killed_anywhere_it_has_all_rows_before(tmp_path: Path):
-    """A kill leaves some first part of what was to be written after the last transaction."""
+    """A kill after the last transaction leaves some initial part of the next one."""
     whole = tmp_path / "whole"
     with Journal(whole, STUDY) as journal:
         sizes = []
@@ -107,7 +107,7 @@ def test_equal_studies_have_no_difference():
 
 
 def test_two_processes_do_not_write_one_journal(tmp_path: Path):
-    """The second one is informed which process works on it; what the study is can be read."""
+    """The message to the second one names the other; the study itself can be read."""
     code = (
         "import sys, json; from pyehl.studies.journal import Journal\n"
         f"with Journal({str(tmp_path)!r}, {STUDY!r}) as journal:\n"
@@ -121,7 +121,7 @@ def test_two_processes_do_not_write_one_journal(tmp_path: Path):
             Journal(tmp_path, STUDY)
         assert read_header(tmp_path) == STUDY
         other.kill()
-    # a lock ends with its process, whatever ended that
+    # a lock ends with its process, however that ends
     assert rows_of(tmp_path) == {}
 
 
@@ -135,7 +135,7 @@ def test_other_folders_are_left_alone(tmp_path: Path):
 
 
 def test_first_starts_at_once_lose_nothing(tmp_path: Path):
-    """What `append` returned from is there, whoever was first; the others are refused."""
+    """Rows after `append` returned are kept, whichever is first; the others are refused."""
     starts = 4
     lost, refused = [], 0
     with ThreadPoolExecutor(starts) as pool:
@@ -166,7 +166,7 @@ def test_first_starts_at_once_lose_nothing(tmp_path: Path):
 def test_a_row_that_is_not_written_is_not_counted(tmp_path: Path):
     limits = resource.getrlimit(resource.RLIMIT_FSIZE)
     with Journal(tmp_path, STUDY) as journal:
-        # no file may grow beyond a part of the row
+        # no file can grow beyond a part of the row
         resource.setrlimit(resource.RLIMIT_FSIZE, (8192, limits[1]))
         try:
             with pytest.raises(FileError, match="cannot write: disk I/O error"):
@@ -181,7 +181,7 @@ def test_cases_differ_by_their_keys():
     old = Case.from_text("", ["grid.points=65", "contact.load=600.0"]).text
     new = Case.from_text("", ["grid.points=129"]).text
     assert difference({"case": old}, {"case": new}) == [
-        # a default follows other values, one that was given does not
+        # a default depends on other values, a given value does not
         "contact.load: there 600.0, here 600.0 (default)",
         "grid.points: there 65, here 129",
         "grid.points_y: there 65 (derived), here 129 (derived)",

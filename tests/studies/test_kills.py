@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Workers and studies that are stopped or killed: no finished case is ever lost."""
+"""Workers and studies that are stopped or killed: no finished case is lost."""
 
 import csv
 import os
@@ -41,7 +41,7 @@ def test_a_failing_case_does_not_stop_the_rest():
 
 
 def test_a_fault_of_the_program_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch):
-    """The journal has the lines of the source; the table the message alone."""
+    """The journal contains the lines of the source; the table only the message."""
 
     def broken(task: Task) -> dict[str, object]:
         raise ZeroDivisionError("no such thing")
@@ -50,13 +50,13 @@ def test_a_fault_of_the_program_keeps_its_traceback(monkeypatch: pytest.MonkeyPa
     row = execute(Task(0, "", "film"))
     assert row["message"] == "ZeroDivisionError: no such thing"
     assert "in broken" in row["traceback"]
-    # a case that is not acceptable is no such fault
+    # an invalid case is no such fault
     bad = pyehl.Case.from_text("").text.replace("points = 513", "points = 514")
     assert "traceback" not in execute(Task(0, bad, "solve"))
 
 
 def test_a_task_that_ends_its_worker_is_a_row(monkeypatch: pytest.MonkeyPatch):
-    """The worker dies on it, on another one again, and all other tasks are done."""
+    """The task also ends a second worker, and all other tasks are done."""
     real = pool.execute_all
 
     def deadly(tasks: list[Task], folder: str) -> list[dict[str, object]]:
@@ -84,9 +84,9 @@ def runs(process: int) -> bool:
 def test_a_worker_waits_for_the_next_study_and_ends(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ):
-    """It is taken again within its time; after that a new one is, whose death is noticed.
+    """It is used again within its lifetime; after that a new one is made, whose death is noticed.
 
-    It works in the folder of the study that it is taken for.
+    It works in the folder of the study that uses it.
     """
     real = pool.execute_all
 
@@ -168,7 +168,7 @@ def wait_for_rows(folder: Path, count: int) -> None:
 
 
 def check_whole(folder: Path, unbroken: Path) -> None:
-    """Every case once, with the numbers of a study that was not stopped."""
+    """Every case once, with the numbers of an uninterrupted study."""
     assert list(rows_in(folder)) == list(range(200))
     for a, b in zip(table(folder), table(unbroken), strict=True):
         assert {k: v for k, v in a.items() if k != "seconds"} == {
@@ -253,7 +253,7 @@ def test_killed_at_random_it_has_every_finished_row(cases: Path, tmp_path: Path,
     before: dict[int, dict[str, object]] = {}
     while kills < 24:
         process = begin(folder, cases / "quick.nml")
-        # most kills while rows are written; the others wherever the time falls
+        # most kills while rows are written; the others at random times
         if kills % 4:
             wait_for_rows(folder, min(len(before) + draw.randint(0, 6), 199))
         time.sleep(draw.uniform(0.0, 0.02 if kills % 4 else 1.2))

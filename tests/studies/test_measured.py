@@ -18,7 +18,7 @@ KEY = "contact.mean_velocity"
 
 
 def run(*words: str, expect: int = 0) -> str:
-    """Run the command in this process; what it printed on standard error."""
+    """Run the command in this process; returns its standard error."""
     complaint = io.StringIO()
     with redirect_stdout(io.StringIO()), redirect_stderr(complaint):
         status = main(["stribeck", *words])
@@ -29,7 +29,7 @@ def run(*words: str, expect: int = 0) -> str:
 def test_measured_data_over_other_abscissae(tmp_path: Path):
     (tmp_path / "m.csv").write_text("u,mu\n2.0,0.05\n8.0,0.04\n99.0,0.03\n")
     measured = read_measured(tmp_path / "m.csv", "u")
-    # lambda goes as u^2 on this curve
+    # lambda is proportional to u^2 on this curve
     table = {"u": [1.0, 4.0, 16.0], "lambda_ratio": [1.0, 16.0, 256.0]}
     curve = Curve("", "u", pd.DataFrame(table))
     assert measured.over("u", curve) == pytest.approx([2.0, 8.0, 99.0])
@@ -94,7 +94,7 @@ def test_measured_data_are_refused_before_the_first_case(
 
 
 def test_measured_points_beyond_the_curve_are_counted(cases: Path, tmp_path: Path):
-    """Where the curve reaches in a number that follows from the point is known at its end."""
+    """The range of the curve in a number that its points give is known only at its end."""
     (tmp_path / "m.csv").write_text("hersey,mu\n1e-8,0.05\n1.5e-6,0.05\n1e-3,0.05\n")
     words = ("--set", "lubricant.shear_law=eyring", "--set", "surface.kind=smooth", "--set")
     words += ("grid.points=129", "--speed", "0.8,1.6", "--measured", str(tmp_path / "m.csv"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The stored record of `examples/zhang2019`, and the how-to that shows its numbers."""
+"""The stored record of `examples/zhang2019`, and the how-to page that shows its numbers."""
 
 import re
 import runpy
@@ -42,7 +42,7 @@ def test_numbers_of_the_howto_are_of_the_record(
 
 @pytest.mark.long
 def test_this_build_makes_the_record(tmp_path: Path, made: dict[str, Any], rows: Any):
-    """Those pieces that need no simulation."""
+    """The parts that need no simulation."""
     results = [
         dict(zip(made["COLUMNS"], row, strict=True))
         for result in reproduce(["table 1", "figure 1", "figure 5"], QUICK, tmp_path)

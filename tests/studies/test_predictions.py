@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Many predictions: the numbers of single ones, and what they share."""
+"""Many predictions: the numbers of single ones, and shared parts."""
 
 import math
 from pathlib import Path
@@ -16,7 +16,7 @@ from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-# What a prediction costs, not what it states
+# Cost of a prediction, which is no result
 OWN = {"seconds", "wall_seconds"}
 SMALL = ("surface.pixels=64",)
 # A ratio, no film, pressures beyond a linear response, the model of the paper, a single wave
@@ -32,13 +32,13 @@ STATUSES = {"breakdown": "film breakdown", "beyond": "beyond linear response"}
 
 @pytest.mark.parametrize("name", CASES)
 def test_a_row_is_the_summary_of_a_prediction(cases: Path, name: str):
-    """To the last bit, but for what is over the tracks, and for advice in the message."""
+    """Bit for bit, except for values over the tracks, and suggestions in the message."""
     case = pyehl.Case(cases / "table1.nml", *CASES[name])
     summary = pyehl.predict(case).summary
     row = execute(Task(0, case.text, "predict"))
     assert row["status"] == summary["status"] == STATUSES.get(name, "predicted")
     for key, value in row.items():
-        # the assessment has the message where there is no ratio
+        # the assessment contains the message if there is no ratio
         if key not in OWN | {"message", "outside_range", "assessment"}:
             assert value == summary[key], key
     if name not in STATUSES:
@@ -51,7 +51,7 @@ def test_a_row_is_the_summary_of_a_prediction(cases: Path, name: str):
 
 
 def test_assessment_of_a_ratio_beyond_linear_response(cases: Path):
-    """Of the film that is known; the ratio alone is missing."""
+    """Of the film, which is known; only the ratio is missing."""
     summary = pyehl.predict(cases / "table1.nml", *CASES["beyond"], tracks=1).summary
     assert summary["mu_ratio"] is None
     assert summary["lambda_ratio"] > 0.0
@@ -74,12 +74,12 @@ def test_tracks_are_there_where_they_are_asked_for(cases: Path):
 
 
 def test_shared_parts_are_made_once(cases: Path):
-    """Surface, slip and a law of friction alone change nothing of the smooth contact; heat does."""
+    """Surface, slip and friction law leave the smooth contact unchanged; heat changes it."""
     base = pyehl.Case(cases / "table1.nml", *SMALL)
     execute(Task(0, base.text, "predict"))
 
     def shared(option: str) -> bool:
-        """Whether the smooth contact was there already."""
+        """Whether the smooth contact was already solved."""
         before = smooth.solved_text.cache_info().misses
         execute(Task(0, base.with_options(option).text, "predict"))
         return smooth.solved_text.cache_info().misses == before
@@ -102,7 +102,7 @@ def test_shared_parts_are_made_once(cases: Path):
 
 
 def test_a_map_is_read_once(tmp_path: Path, monkeypatch):
-    """For all cases with it, until its file is another or it is prepared in another way."""
+    """For all cases with it, until its file changes or it is prepared in another way."""
     reads = []
     read = from_case_surface.read_scan
     monkeypatch.setattr(from_case_surface, "read_scan", lambda *a: reads.append(a) or read(*a))
@@ -142,7 +142,7 @@ def smooth_contact(moes_m: float) -> smooth.SmoothContact:
 
 
 def test_high_loads_take_a_finer_grid():
-    """Above M = 2000 the usual grid has nothing to extrapolate from, above 4000 no solution."""
+    """Above M = 2000 the usual grid gives no extrapolation, above 4000 no solution."""
 
     usual, high = smooth_contact(2000.0), smooth_contact(2500.0)
     assert "257 x 257 nodes, extrapolated" in usual.source
@@ -151,7 +151,7 @@ def test_high_loads_take_a_finer_grid():
         settings = pyehl.Case.from_text("", [f"contact.moes_m={moes_m}"]).resolve()
         point = OperatingPoint.from_settings(settings)
         formula = central_film(point, Lubricant.from_settings(settings)) / point.film_scale
-        # the formula is accurate to 1 %; without extrapolation the film is 10 % low
+        # the formula is accurate to 1 %; without extrapolation the film is 10 % too thin
         assert contact.central_film == pytest.approx(formula, rel=0.015)
     assert high.central_film_error < 0.05 * high.central_film
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`examples/zhang2019`: the paper beside our runs, and a wrong number of it fails."""
+"""`examples/zhang2019`: the paper against new runs; a wrong number of the paper fails."""
 
 import ast
 import html
@@ -44,7 +44,7 @@ def test_table_1(tmp_path: Path):
     result = one("table 1", tmp_path)
     assert result.passed
     assert len(result.checks) == 17
-    # the numbers that follow from the inputs, to the digits that are printed or worked out by hand
+    # numbers that follow from the inputs, to the digits printed or calculated by hand
     for name, least in (("hertz_pressure", 2e-4), ("hertz_radius", 1e-5), ("moes_m", 2e-5)):
         check = check_of(result, name)
         assert abs(check.deviation / check.expected) < least
@@ -76,7 +76,7 @@ def figure_2(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Result]:
 
 @pytest.mark.long
 def test_figure_2_on_a_coarser_grid(figure_2: tuple[Path, Result]):
-    """257 x 257: what another program has there, and 0.6 % below what the paper prints."""
+    """257 x 257: as another program, and 0.6 % below the paper."""
     _, result = figure_2
     independent = check_of(result, "257 x 257 nodes, scheme 'paper'")
     assert independent.passed
@@ -90,14 +90,14 @@ def test_figure_2_on_a_coarser_grid(figure_2: tuple[Path, Result]):
 
 
 def test_the_paper_does_not_change_what_is_computed(figure_2: tuple[Path, Result]):
-    """With another number of the paper the curves are the same, and the deviation is not."""
+    """With another number of the paper the curves are the same, and the deviation differs."""
     folder, before = figure_2
     table = before.file(".csv").read_bytes()
     (journal,) = folder.glob(f"studies/*/{NAME}")
     rows = rows_in(journal.parent)
     result = one("figure 2", folder, references=wrong("fig2.mu_ratio", 0.994))
     assert result.file(".csv").read_bytes() == table
-    # and nothing ran again
+    # and no case is run again
     assert rows_in(journal.parent) == rows
     assert check_of(result, "scheme of the paper").passed
     assert not check_of(before, "scheme of the paper").passed
@@ -113,7 +113,7 @@ def test_figure_2_on_the_grid_of_the_paper(tmp_path: Path):
 
 
 def test_nothing_that_computes_reads_the_numbers_of_the_paper(root: Path):
-    """`driver` alone reads them, and `show` alone gets them."""
+    """Only `driver` reads them, and only `show` receives them."""
     folder = root / "examples" / "zhang2019"
     for path in [*(root / "pyehl").rglob("*.py"), *folder.glob("*.py")]:
         tree = ast.parse(path.read_text())
@@ -164,7 +164,7 @@ def test_fit_finds_what_is_there():
     result = fit(theta, exact, curve)
     assert (result.second, result.fourth) == pytest.approx((0.5, 0.2), rel=1e-9)
     assert scatter(exact, result.at(theta)) < 1e-12
-    # each curve off by some per cent of its own: the interval is wider than that of single points
+    # each curve deviates by some per cent: the interval is wider than that of single points
     random = np.random.default_rng(0)
     off = exact * np.exp(0.05 * random.standard_normal(8))[curve]
     result = fit(theta, off, curve)
@@ -175,7 +175,7 @@ def test_fit_finds_what_is_there():
 
 
 def test_parameter_from_the_response():
-    """It goes with 1/A, and small waves of a full simulation lie on its theory."""
+    """It scales with 1/A, and small waves of a full simulation follow its theory."""
     point = (np.array([1000.0, 1000.0]), np.array([10.0, 10.0]), np.array([0.5, 0.5]))
     theta = response_parameter(*point, np.array([1e-3, 2e-3]), 1.01)
     assert theta[0] == pytest.approx(2.0 * theta[1], rel=1e-12)
@@ -187,7 +187,7 @@ def test_parameter_from_the_response():
 
 
 def test_a_failed_run_fails_its_piece_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """The run is named in the report, and the other pieces are there; done again it is tried."""
+    """The report names the run, and the other parts exist; the next call repeats it."""
     good = figure2.CASE
     monkeypatch.setattr(figure2, "CASE", good + "&solver max_cycles = 1 /\n")
     level = replace(SMALL, wave_grids=(33,))
@@ -202,14 +202,14 @@ def test_a_failed_run_fails_its_piece_alone(tmp_path: Path, monkeypatch: pytest.
 
 @pytest.mark.slow
 def test_waves_and_surfaces_on_coarse_grids(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """All other pieces, small: what they find, not how well the paper is met on such grids."""
+    """All other parts, small: whether they run, not how well they agree with the paper."""
     curves = ((1000.0, 10.0, 1.0), (1000.0, 10.0, 0.5), (500.0, 5.0, 1.0), (500.0, 10.0, 0.5))
     monkeypatch.setattr(conditions, "CURVES", curves)
     monkeypatch.setattr(conditions, "RATIOS", (1.6, 2.5, 5.0))
     names = [n for n in PIECES if n not in ("table 1", "figure 1", "figure 2", "figure 5")]
     result = {r.name: r for r in reproduce(names, SMALL, tmp_path)}
     assert set(result) == set(names)
-    # the response brings the waves together better than theta_2, under the narrow scheme
+    # with the narrow scheme the response collapses the waves better than theta_2
     narrow = next(n for n in result["figure 4"].notes if "'narrow', theta_r" in n)
     assert float(re.search(r"that is ([\d.]+) times less", narrow)[1]) > 1.3
     assert check_of(result["figure 6"], "correlation").value > 0.95
@@ -232,7 +232,7 @@ def test_a_failure_with_a_known_finding():
 
 
 def test_a_check_without_a_number_does_not_pass():
-    """Neither green in the report nor counted among the pieces that are within tolerances."""
+    """Neither green in the report nor counted among the parts that are within tolerances."""
     free = Check("x", 2.0, 1.0, None, "of another surface", "there")
     for checks in ((), (free,)):
         result = Result(checks, unjudged="it is not published")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`pyehl compare --measured`: a study beside the file of a rig."""
+"""`pyehl compare --measured`: a study against the file of a rig."""
 
 from pathlib import Path
 
@@ -41,7 +41,7 @@ def rig(path: Path, factor: float, *, temperature: float = 40.0, steps: int = 1)
 def test_measured_films_and_a_study(
     study: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Films measured 5 % thinner; a step at another temperature is left out."""
+    """Films measured 5 % thinner; a step at another temperature is not compared."""
     file = rig(tmp_path / "films.txt", 1.0 / 1.05, steps=2)
     assert main(["compare", str(study), "--measured", str(file)]) == 0
     reported = capsys.readouterr().out

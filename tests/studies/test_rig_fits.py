@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`pyehl fit-lubricant` and `pyehl stribeck --measured` with files of rigs that the solver made."""
+"""`pyehl fit-lubricant` and `pyehl stribeck --measured` with rig files made by the solver."""
 
 import re
 from pathlib import Path
@@ -29,7 +29,7 @@ ALPHA, STRESS = 1.8e-8, 6.3e6
 
 
 def films(path: Path, values: np.ndarray, temperature: float = 40.0) -> Path:
-    """An EHD file with repeats (repeats, speeds) of films [m], each a step."""
+    """An EHD file with repeats (repeats, speeds) of films [m], one step each."""
     lines = ["EHD261 Test Data File", ""]
     for number, row in enumerate(values, 1):
         lines += [f'Step {number} "films" started at 1/1/2020']
@@ -70,14 +70,14 @@ def test_fitted_alpha_is_in_its_interval(case: Path, solved: np.ndarray, tmp_pat
         widths.append(0.5 * np.log(alpha.high / alpha.low))
     # fewer than 34 of 40 have a probability of 0.3 %
     assert inside >= 34
-    # t of 7 degrees of freedom is 2.36; film goes with the power 0.53 of alpha
+    # t of 7 degrees of freedom is 2.36; the film follows alpha to the power 0.53
     assert np.mean(widths) == pytest.approx(2.36 * 0.03 / np.sqrt(24.0) / 0.53, rel=0.2)
 
 
 def test_alpha_without_noise(
     case: Path, solved: np.ndarray, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """From a first guess three times too small, by the command; a hot step is left out."""
+    """From an initial guess three times too small, by the command; a hot step is left out."""
     file = films(tmp_path / "films.txt", solved[np.newaxis])
     hot = films(tmp_path / "hot.txt", solved[np.newaxis] / 3.0, 90.0).read_text(encoding="utf-8")
     file.write_text(file.read_text(encoding="utf-8") + hot.partition("\n")[2], encoding="utf-8")
@@ -95,7 +95,7 @@ def test_alpha_without_noise(
 
 @pytest.mark.long
 def test_eyring_stress_is_in_its_interval(tmp_path: Path) -> None:
-    """From MTM traction steps with noise; the true stress lies in the interval of most records."""
+    """From MTM traction steps with noise; most intervals contain the true stress."""
     case = tmp_path / "case.nml"
     case.write_text(TRACTION)
     ratios = np.array([0.01, 0.02, 0.05, 0.1, 0.2])
@@ -123,7 +123,7 @@ def test_eyring_stress_is_in_its_interval(tmp_path: Path) -> None:
 
 @pytest.mark.long
 def test_record_of_measured_films(root: Path) -> None:
-    """The coefficient and the residual are those of the page; fringe orders are as it states."""
+    """Coefficient and residual as on the page; fringe orders as stated there."""
     folder = root / "docs" / "evidence" / "rig"
     page = (folder / "README.md").read_text(encoding="utf-8")
     data, case = folder / "nynas-t3-40.csv", folder / "nynas-t3.nml"
@@ -141,7 +141,7 @@ def test_record_of_measured_films(root: Path) -> None:
 
 
 def test_stribeck_beside_a_rig(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Films and friction of a curve, measured 5 % lower, deviate by 5.3 %; the range is stated."""
+    """Measured 5 % lower, films and friction deviate by 5.3 %; the range is stated."""
     case = Path(__file__).resolve().parents[2] / "cases" / "mtm.nml"
     words = [str(case), "--speed", "0.5:2:3log", "--set", "grid.points=65", "-o"]
     curve = tmp_path / "curve"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl sweep``: the table is that of single runs; plans, outputs, the benchmark."""
+"""``pyehl sweep``: the table equals single runs; plans, outputs, the benchmark."""
 
 import csv
 import io
@@ -23,7 +23,7 @@ from pyehl.studies.tasks import Task
 
 
 def sweep(folder: Path, *words: str, expect: int = 0) -> tuple[str, str]:
-    """Run the command in this process; what it printed on both streams."""
+    """Run the command in this process; returns both output streams."""
     reported, complaint = io.StringIO(), io.StringIO()
     with redirect_stdout(reported), redirect_stderr(complaint):
         status = main(["sweep", *words, "-o", str(folder)])
@@ -38,7 +38,7 @@ def table(folder: Path) -> list[dict[str, str]]:
 
 @pytest.fixture(scope="module")
 def done(cases: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
-    """A study that is finished, and what it printed."""
+    """A finished study, and its output."""
     folder = tmp_path_factory.mktemp("sweep") / "new" / "study"
     words = ("--set", "grid.points=65", "--vary", "contact.moes_m=50:200:4log")
     words += ("--vary", "contact.moes_l=5,10")
@@ -194,7 +194,7 @@ def test_estimates_grow_with_the_work():
 
 
 def test_estimates_of_predictions_know_what_is_shared(cases: Path):
-    """The smooth contact counts once for all cases that have it; tracks take longer."""
+    """The smooth contact counts once for all cases that share it; tracks take longer."""
     axes = [parse_axis("surface.seed=1:2"), parse_axis("contact.load=500,600")]
     brief = plan(make(str(cases / "table1.nml"), axes, run="predict"))
     first, second, third, fourth = (task.seconds for task in brief.tasks)
@@ -212,7 +212,7 @@ def test_predictions_share_smooth_contacts(cases: Path):
 
 
 def test_a_message_for_each_case_without_a_result(cases: Path, tmp_path: Path):
-    """Of those that did not converge, too; in Python the dataset has their status."""
+    """Also if they did not converge; in Python the dataset has their status."""
     words = ("--set", "grid.points=65", "--vary", "solver.max_cycles=1,30,2")
     reported, complaint = sweep(tmp_path / "out", str(cases / "quick.nml"), *words, expect=1)
     assert "1 converged, 2 cycle limit" in reported
@@ -220,7 +220,7 @@ def test_a_message_for_each_case_without_a_result(cases: Path, tmp_path: Path):
     assert first.startswith("case 1 of 3 (solver.max_cycles=1): cycle limit: the residual of ")
     assert last.startswith("case 3 of 3 (solver.max_cycles=2): cycle limit: the residual of ")
     assert "give a finer grid (grid.points = 129)" in first
-    # nothing is left to do, and the status is the same
+    # nothing remains to be done, and the status is the same
     assert sweep(tmp_path / "out", str(cases / "quick.nml"), *words, expect=1)[1] == complaint
     data = pyehl.sweep(
         cases / "quick.nml", {"solver.max_cycles": [1, 30]}, "grid.points=65", jobs=1
@@ -229,14 +229,14 @@ def test_a_message_for_each_case_without_a_result(cases: Path, tmp_path: Path):
 
 
 def test_a_failed_case_has_a_message(cases: Path, tmp_path: Path):
-    """Without the name of the class of its error."""
+    """Without the class name of its error."""
     words = ("--run", "predict", "--vary", "contact.mean_velocity=0.002")
     _, complaint = sweep(tmp_path / "out", str(cases / "table1.nml"), *words, expect=1)
     assert "failed: the smooth contact under the prediction did not converge" in complaint
 
 
 def test_film_breakdown_counts_as_a_result(cases: Path, tmp_path: Path):
-    """As on a curve: the study is finished, and the table has of which case there is no ratio."""
+    """As on a curve: the study is finished, and the table states which case has no ratio."""
     words = ("--run", "predict", "--set", "surface.pixels=64", "--vary")
     words += ("surface.rms_height=5e-8,8e-7", "--jobs", "1")
     reported, complaint = sweep(tmp_path / "out", str(cases / "table1.nml"), *words)
@@ -245,7 +245,7 @@ def test_film_breakdown_counts_as_a_result(cases: Path, tmp_path: Path):
 
 
 def test_estimates_of_predictions(cases: Path):
-    """Beside processor seconds measured on an x86 of 2020, within a factor of 2.5 of each."""
+    """Against processor seconds measured on an x86 of 2020, each within a factor of 2.5."""
     thins = {"lubricant.shear_law": "eyring"}
     layer = thins | {"lubricant.boundary_film": 4e-8, "lubricant.boundary_friction": 0.1}
     rough = {"surface.kind": "fractal"}
@@ -265,12 +265,12 @@ def test_estimates_of_predictions(cases: Path):
 
 
 def test_the_time_left_follows_from_what_the_first_cases_took():
-    """Each kind of task by its own: a machine that is ten times as slow, and film sheets."""
+    """For each kind of task: on a machine that is ten times as slow, and for film sheets."""
     tasks = [Task(n, "", "solve" if n < 8 else "film", seconds=1.0) for n in range(10)]
     left = Remaining(tasks, 2)
     assert (left.count, left.total, left.seconds) == (10, 10.0, 5.0)
     left.remove([(0, {"seconds": 10.0}), (1, {"seconds": 10.0}), (2, {"seconds": None})])
-    # five cases of 10 s, and two of which nothing else is known
+    # five cases of 10 s, and two without any other data
     assert left.seconds == pytest.approx(70.0 / 2.0)
     left.remove([(8, {"seconds": 0.5})])
     assert left.seconds == pytest.approx((5 * 10.0 + 0.5) / 2.0)
@@ -280,7 +280,7 @@ def test_the_time_left_follows_from_what_the_first_cases_took():
 
 @pytest.mark.long
 def test_a_plan_of_a_million_cases(cases: Path, tmp_path: Path):
-    """It checks some, among them both ends of what is varied, and states so."""
+    """It checks some, among them both ends of the varied values, and states so."""
     words = [str(cases / "table1.nml"), "--run", "film", "--plan", "--vary"]
     words += ["contact.load=100:600:1000", "--vary"]
     began = time.monotonic()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Traction curves, and what an empirical law gives where the film is thin."""
+"""Traction curves, and an empirical law for thin films."""
 
 import csv
 import io
@@ -47,7 +47,7 @@ def columns(folder: Path) -> dict[str, np.ndarray]:
 
 
 def test_traction_curve_has_three_regions(tmp_path: Path):
-    """In proportion to slip at first, then hardly with it, then less by the heat."""
+    """Proportional to slip at first, then nearly constant, then decreasing by heat."""
     (tmp_path / "ball.nml").write_text(BALL)
     (tmp_path / "measured.csv").write_text(f"{SLIP},mu\n0.1,0.033\n0.3,0.033\n")
     slips = "0,1e-7,2e-7,0.12,0.2,0.5"
@@ -92,7 +92,7 @@ def test_load_share_refuses(numbers):
 
 @pytest.mark.long
 def test_empirical_left_end(tmp_path: Path):
-    """Thin films tend to the boundary friction; no number without the flag."""
+    """Thin films tend to boundary friction; without the flag there is no number."""
     (tmp_path / "ball.nml").write_text(
         BALL + "&surface kind = 'fractal' rms_height = 3e-7 shortest_wavelength = 1e-5 /\n"
     )
@@ -109,7 +109,7 @@ def test_empirical_left_end(tmp_path: Path):
     assert result["asperity_load_share_empirical"] == pytest.approx(share, rel=1e-12)
     expected = share * 0.12 + (1.0 - share) * result["mu"]
     assert result["mu_empirical"][~broken] == pytest.approx(expected[~broken], rel=1e-12)
-    # where the film ends it has the friction of the smooth contact
+    # after film breakdown the law uses the friction of the smooth contact
     assert share[0] * 0.12 < result["mu_empirical"][0] < share[0] * 0.12 + (1.0 - share[0]) * 0.06
     assert result["mu_empirical"][2] == pytest.approx(result["mu"][2], rel=0.01)
     assert "empirical: exp(-1.8 (h_c/sigma)^1.2)" in reported
@@ -122,7 +122,7 @@ def test_empirical_left_end(tmp_path: Path):
 
 
 def test_roughness_of_the_second_surface_has_a_left_end():
-    """The law needs a rough surface, whichever it is."""
+    """The law needs a rough surface, on either body."""
     case = pyehl.Case.from_text(BALL + "&second_surface kind = 'fractal' rms_height = 3e-7 /\n")
     assert case.resolve()["surface"]["kind"] == "smooth"
     made = plan_curve(case, [Axis("contact.mean_velocity", (0.3, 0.6))], load_share=LoadShare(0.12))

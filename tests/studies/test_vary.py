@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a study varies: texts after --vary, study files, cases in the order of the table."""
+"""Variations of a study: texts after --vary, study files, cases in the order of the table."""
 
 from pathlib import Path
 
@@ -196,7 +196,7 @@ def test_more_values_than_a_study_can_have_are_not_collected():
 
 
 def test_dimensions_have_plain_names():
-    """Those of their keys; with the group where another key or a result is called so."""
+    """Those of their keys; with the group if another key or a result has that name."""
     for keys, names in (
         (["contact.load", "contact.mean_velocity"], ["load", "mean_velocity"]),
         (["contact.moes_m", "surface.seed"], ["moes_m", "seed"]),
