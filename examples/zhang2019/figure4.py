@@ -171,11 +171,12 @@ def _below(c: Collapsed) -> Finding:
         return 100.0 * scatter(c.waves.friction[chosen], ours.at(c.theta_2[chosen]))
 
     text = (
-        f"Under the scheme of the paper the {above.sum()} waves with theta_2 above {ONE_CURVE:g} "
-        f"scatter by {rms(above, c.fit_one):.1f} % about their fit, {c.fit_one}. The "
-        f"{below.sum()} waves below scatter by {rms(below, c.fit_2):.0f} % about the fit to all, "
-        f"{c.fit_2}: there mu_r/mu_s is not a function of theta_2 alone, and the coefficients of a "
-        "fit depend on the selection of waves, which the paper does not list."
+        f"Under the scheme of the paper the fit to the {above.sum()} waves with theta_2 above "
+        f"{ONE_CURVE:g} is {c.fit_one}; these waves scatter by {rms(above, c.fit_one):.1f} % about "
+        f"it. The fit to all waves is {c.fit_2}; the {below.sum()} waves below {ONE_CURVE:g} "
+        f"scatter by {rms(below, c.fit_2):.0f} % about it. There mu_r/mu_s is not a function of "
+        "theta_2 alone, and the coefficients of a fit depend on the selection of waves, which the "
+        "paper does not list."
     )
     return Finding(BELOW, text)
 
