@@ -20,7 +20,7 @@ from selenium.webdriver.chrome.service import Service
 
 WIDTH, HEIGHT = 375, 812
 QUESTION = "minimum film thickness"
-# Made by FORD, which is no part of the site that is checked
+# Made by FORD, which is not checked here
 FOREIGN = ("fortran/",)
 SHOWN = ("index.html", "theory/equations.html", "theory/symbols.html", "validation.html")
 CUT = """
@@ -56,13 +56,13 @@ def browser() -> webdriver.Chrome:
 
 
 def scheme(driver: webdriver.Chrome, name: str) -> None:
-    """Ask for light or dark pages, as the system of a reader does."""
+    """Set light or dark pages, as the system of a reader does."""
     feature = {"name": "prefers-color-scheme", "value": name}
     driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [feature]})
 
 
 def faults(site: Path, pictures: Path | None, patience: float = 30.0) -> list[str]:
-    """List all that is wrong; the search may take `patience` seconds."""
+    """List all faults; the search may take `patience` seconds."""
     handler = functools.partial(Quiet, directory=str(site))
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
     threading.Thread(target=server.serve_forever, daemon=True).start()

@@ -17,7 +17,7 @@ FIRST_PAGE = 300_000
 """Most bytes of the first page with all of its files."""
 WORDS = ("minimum", "film", "thick")
 """Stems that the search must find on one page."""
-# Made by other programs: their insides are not ours
+# Made by other programs: their contents are not checked
 FOREIGN = ("fortran/",)
 
 
@@ -34,7 +34,7 @@ class Page(HTMLParser):
         self.feed(text)
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Take what a tag names."""
+        """Record the targets and files of a tag."""
         have = {name: value or "" for name, value in attrs}
         self.anchors |= {have[name] for name in ("id", "name") if name in have}
         if tag == "a" and "href" in have:
@@ -49,7 +49,7 @@ class Page(HTMLParser):
 
 
 def faults(site: Path) -> list[str]:
-    """List all that is wrong with a site."""
+    """List all faults of a site."""
     pages = {
         path: Page(path.read_text(encoding="utf-8"))
         for path in sorted(site.rglob("*.html"))
@@ -85,7 +85,7 @@ def faults(site: Path) -> list[str]:
 
 
 def of_site(site: Path, pages: dict[Path, Page]) -> list[str]:
-    """List what is wrong with the first page and the search."""
+    """List the faults of the first page and of the search."""
     result = []
     first = site / "index.html"
     files = {site / f.partition("?")[0] for f in pages[first].files if not f.startswith("data:")}

@@ -29,9 +29,9 @@ extensions = [
     "sphinx_gallery.gen_gallery",
 ]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
-# FORD makes pages of ford.md, see below
+# ford.md becomes pages of FORD, see below
 exclude_patterns = ["_build", "_ext", "_static", "examples", "ford.md"]
-# The list of measurements may be empty; blocks without a lexer of their own are plain text
+# The list of measurements may be empty; code blocks without a language are plain text
 suppress_warnings = ["toc.empty_glob", "misc.highlighting_failure"]
 
 myst_enable_extensions = ["dollarmath", "deflist"]
@@ -56,7 +56,7 @@ sphinx_gallery_conf = {
     "show_memory": False,
     "plot_gallery": True,
     "min_reported_time": 1,
-    # its page takes scripts from a network
+    # its page loads scripts from a network
     "write_computation_times": False,
 }
 
@@ -67,7 +67,7 @@ html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_copy_source = False
 
-# Documents outside of this folder, and the pages that include them
+# Documents outside this folder, and the pages that include them
 OUTSIDE = {
     "cases/README.md": "/reference/keys.md",
     "fortran/README.md": "/fortran.md",
@@ -78,7 +78,7 @@ OUTSIDE = {
 
 
 def lead_to_pages(app: Sphinx, name: str, source: list[str]) -> None:
-    """Make links to documents outside of this folder lead to the pages that include them."""
+    """Redirect links to documents outside this folder to the pages that include them."""
     for outside, page in OUTSIDE.items():
         source[0] = re.sub(rf"\]\((?:\.\./)+{re.escape(outside)}", f"]({page}", source[0])
 
@@ -96,11 +96,11 @@ SOURCES = {
     for name in (path.as_posix(), path.relative_to(path.parts[0]).as_posix(), path.name)
     if name != path.name or NAMES[name] == 1
 }
-"""Files of the source by their paths and by the names that the chapters use."""
+"""Source files by their paths and by their names in the chapters."""
 
 
 def lead_to_sources(app: Sphinx, name: str, source: list[str]) -> None:
-    """Make the file names in the tables of a chapter lead to the files."""
+    """Link the file names in the tables of a chapter to the files."""
     if not name.startswith("theory/"):
         return
 
@@ -136,7 +136,7 @@ def describe(
 
 
 def setup(app: Sphinx) -> None:
-    """Register what changes the sources and the pages."""
+    """Register the functions that change the sources and the pages."""
     app.connect("source-read", lead_to_pages)
     app.connect("source-read", lead_to_sources)
     app.connect("html-page-context", describe)

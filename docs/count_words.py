@@ -13,18 +13,18 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 WITHOUT = ("docs/bibliography.md", "docs/gallery/", "docs/ford.md")
 LIMIT = 41_000
-"""Most words that the tests allow, with names of code; the aim is about 40 000."""
+"""Maximum number of words that the tests allow, names of code included; the aim is about 40 000."""
 
 
 def pages() -> list[Path]:
-    """Pages of the book."""
+    """List the pages of the book."""
     result = [ROOT / "README.md", ROOT / "cases" / "README.md", ROOT / "fortran" / "README.md"]
     result += sorted((ROOT / "docs").rglob("*.md"))
     return [path for path in result if not path.relative_to(ROOT).as_posix().startswith(WITHOUT)]
 
 
 def prose(text: str, *, code_apart: bool = True) -> str:
-    """Give the running prose of a page in Markdown; a name of code is one word or none."""
+    """Give the running prose of a Markdown page; a name of code counts as one word or none."""
     text = re.sub(r"^ *(`{3,}|~{3,}).*?^ *\1", "", text, flags=re.DOTALL | re.MULTILINE)
     text = re.sub(r"^ *\|.*$", "", text, flags=re.MULTILINE)
     text = re.sub(r"<!--.*?-->|</?[a-z]+>", "", text, flags=re.DOTALL)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sphinx-Gallery: pictures by the style sheet of pyehl.
+"""Sphinx-Gallery: figures with the style sheet of pyehl.
 
 A figure that is the value of the last line is shown, with or without pyplot.
 """
@@ -17,14 +17,14 @@ SHOWN: WeakSet[Figure] = WeakSet()
 
 
 def by_the_style_sheet(gallery_conf: dict[str, Any], file_name: str) -> None:
-    """Draw the pictures of an example by the style sheet."""
+    """Set the style sheet for the figures of an example."""
     rcParams.update(STYLE | {"figure.dpi": 200})
 
 
 def scrape(block: object, block_vars: dict[str, Any], gallery_conf: dict[str, Any]) -> str:
-    """Save the figure, and give the text that shows it."""
+    """Save the figure, and return the text that includes it."""
     value = block_vars["example_globals"].get("___")
-    # the value of an earlier block stays there
+    # the value of an earlier block is still defined
     if not isinstance(value, Figure) or value in SHOWN:
         return ""
     SHOWN.add(value)

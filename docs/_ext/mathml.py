@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Formulas as MathML, which browsers draw themselves: the pages need no network."""
+"""Formulas as MathML, which browsers render themselves: the pages need no network."""
 
 from docutils import nodes
 from latex2mathml.converter import convert
@@ -15,7 +15,7 @@ def _inline(self: HTMLTranslator, node: nodes.math) -> None:
 
 def _block(self: HTMLTranslator, node: nodes.math_block) -> None:
     text = node.astext()
-    # several lines are aligned as LaTeX would have them
+    # several lines are aligned as in LaTeX
     if "\\\\" in text and "\\begin" not in text:
         text = wrap_displaymath(text, None, numbering=False)
     self.body.append(self.starttag(node, "div", style="overflow: auto hidden; padding: 0.3em 0"))
@@ -25,6 +25,6 @@ def _block(self: HTMLTranslator, node: nodes.math_block) -> None:
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
-    """Offer the renderer ``mathml``."""
+    """Register the renderer ``mathml``."""
     app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
     return {"parallel_read_safe": True, "parallel_write_safe": True}

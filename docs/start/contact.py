@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draw the picture at the head of the README: python docs/start/contact.py, half a minute."""
+"""Draw the picture at the top of the README: python docs/start/contact.py, half a minute."""
 
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,8 @@ from pyehl.plots.outline import Outline
 
 HERE = Path(__file__).resolve().parent
 CASE = HERE.parents[1] / "cases" / "finish.nml"
-# Faster than the case, so that all waves show; no waves that the grid does not resolve
+# At a higher speed than the case, so that all waves are visible; no waves that the grid does not
+# resolve
 CHANGES = {
     "contact.mean_velocity": 4.0,
     "grid.points": 257,
@@ -27,12 +28,12 @@ STEEL, DISC, OIL = "#C9CED6", "#AEB6C2", "#F6E3B4"
 
 
 def on_one_line(path: Path) -> None:
-    """Write an SVG file without the ends of its lines, which say nothing."""
+    """Write an SVG file on one line; its line ends have no meaning."""
     path.write_text(" ".join(path.read_text(encoding="utf-8").split()) + "\n", encoding="utf-8")
 
 
 def arrow(ax: Axes, tip: tuple[float, float], tail: tuple[float, float], **more: Any) -> None:  # noqa: ANN401
-    """Draw an arrow between two places."""
+    """Draw an arrow between two points."""
     style = {"arrowstyle": "-|>", "lw": 1.2, "color": "black", "shrinkA": 0, "shrinkB": 0, **more}
     ax.annotate("", tip, tail, arrowprops=style)
 
@@ -121,7 +122,7 @@ def main() -> None:
     """Solve the contact and draw it."""
     figure = drawn(pyehl.solve(CASE, CHANGES))
     on_one_line(style.save(figure, HERE / "contact.svg", dpi=200))
-    # of the first page of the site, which is to be light
+    # for the first page of the site, which must load fast
     path = style.save(figure, HERE / "contact.png", dpi=160)
     with Image.open(path) as picture:
         picture.convert("RGB").quantize(128).save(path, optimize=True)

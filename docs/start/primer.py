@@ -53,7 +53,7 @@ def moes() -> None:
 
 
 def style_colours() -> tuple[str, str, str]:
-    """Give three colours that everybody tells apart."""
+    """Give three colours that every reader can distinguish."""
     return style.BLUE, style.VERMILLION, style.GREEN
 
 
@@ -64,13 +64,13 @@ AREAS = {
     "rigid to elastic-piezoviscous": ("between:\nsteel and oil", (500.0, 13.0)),
     "elastic-piezoviscous": ("elastic,\npiezo-\nviscous", (9e3, 2.4)),
 }
-"""Regimes, their names in the picture and where these stand (M, L)."""
+"""Regimes, their names in the picture and the positions of the names (M, L)."""
 SHADES = ("#DCE9F5", "#FBE3D3", "#D9F0E7", "#FFFFFF", "#F6E9F1")
 
 
 @style.styled()
 def regimes() -> None:
-    """Regimes over M and L, and where the contact of the case is."""
+    """Regimes over M and L, and the contact of the case among them."""
     m, ell = np.geomspace(0.1, 3e4, 401), np.geomspace(0.5, 25.0, 281)
     names = np.array([[regime(x, y) for x in m] for y in ell])
     figure = style.new_figure(style.COLUMN, HEIGHT)
@@ -110,7 +110,7 @@ def stribeck() -> None:
     twin.plot(speed, share, "s--", color=style.VERMILLION)
     twin.set_ylim(0.0, 1.0)
     style.y_label(twin, "load share of solid contact", style.VERMILLION)
-    # the share falls below 1 % where the surfaces part
+    # the share falls below 1 % where the surfaces separate
     parted = float(np.exp(np.interp(-0.01, -share, np.log(speed))))
     ax.axvline(parted, color=style.GREY, lw=0.8, ls=":")
     for place, word in ((0.06, "mixed"), (0.25, "full film")):

@@ -97,7 +97,7 @@ contains
       type(destination_t) :: destination
 
       destination = destination_t(folder, kind, names, inputs, kept, force /= 0)
-      ! the library knows the files that it writes
+      ! the library has the list of the files that it writes
       if (kind == "solution") destination%names = result_names
    end function destination_of
 

@@ -41,8 +41,8 @@ module ehl_domain
    !> the error due to the inlet is larger, and its power of the film
    real(dp), parameter :: of_inlet = 0.46_dp, of_sides = 0.06_dp, of_sides_at_minimum = 0.15_dp, &
                           thin_film = 0.06_dp, thin_power = 0.25_dp
-   !> Additional decay, relative to a round contact, of the error due to the sides of a wide contact with their distance from its
-   !> ends, in half lengths along the motion: at least 1.2 in thin films at kappa = 1.5 to 16 and 1.15 to 2 half widths
+   !> Error due to the sides of a wide contact: additional decay, relative to a round contact, with the distance of the sides from
+   !> its ends in half lengths along the motion. At least 1.2 in thin films at kappa = 1.5 to 16 and 1.15 to 2 half widths
    !> (docs/evidence/machines); not measured in films above `thick_for_decay`, where it is 0
    real(dp), parameter :: end_decay = 1.2_dp, thick_for_decay = 0.2_dp
    !> Load beyond inlet and sides, over lambda_bar; minimum sensitivity of the film to load around M = 5, where the

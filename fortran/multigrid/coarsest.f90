@@ -242,7 +242,7 @@ contains
             own = 0.0_dp
             returned = 1.0_dp
             call add_poiseuille(i)
-            ! oil that flows back to upstream nodes which pass all of it on returns from there
+            ! oil that flows back to starved upstream nodes is transported back to this one
             do k = i - 1, 2, -1
                if (.not. passing(k, j)) exit
                returned = level%supply%passed_fraction*returned

@@ -24,35 +24,35 @@ contains
       write (error_unit, "(2a)") "FAILED: ", what
    end subroutine is_true
 
-   !> Check that |value - wanted| <= tolerance; NaN is never close
-   subroutine is_close(value, wanted, tolerance, what)
-      real(dp), intent(in) :: value, wanted, tolerance
+   !> Check that |value - expected| <= tolerance; NaN is never close
+   subroutine is_close(value, expected, tolerance, what)
+      real(dp), intent(in) :: value, expected, tolerance
       character(len=*), intent(in) :: what
       character(len=100) :: numbers
       logical :: good
 
       good = .not. ieee_is_nan(value)
-      if (good) good = abs(value - wanted) <= tolerance
-      write (numbers, "(3(a, es24.16))") " is", value, " wanted", wanted, " within", tolerance
+      if (good) good = abs(value - expected) <= tolerance
+      write (numbers, "(3(a, es24.16))") " is", value, " expected", expected, " within", tolerance
       call is_true(good, what // trim(numbers))
    end subroutine is_close
 
    !> Check that two integers are equal
-   subroutine is_equal(value, wanted, what)
-      integer, intent(in) :: value, wanted
+   subroutine is_equal(value, expected, what)
+      integer, intent(in) :: value, expected
       character(len=*), intent(in) :: what
       character(len=60) :: numbers
 
-      write (numbers, "(2(a, i0))") " is ", value, " wanted ", wanted
-      call is_true(value == wanted, what // trim(numbers))
+      write (numbers, "(2(a, i0))") " is ", value, " expected ", expected
+      call is_true(value == expected, what // trim(numbers))
    end subroutine is_equal
 
    !> Check that two texts are equal
-   subroutine is_text(value, wanted, what)
-      character(len=*), intent(in) :: value, wanted, what
+   subroutine is_text(value, expected, what)
+      character(len=*), intent(in) :: value, expected, what
 
-      call is_true(value == wanted .and. len(value) == len(wanted), &
-                   what // " is '" // value // "' wanted '" // wanted // "'")
+      call is_true(value == expected .and. len(value) == len(expected), &
+                   what // " is '" // value // "' expected '" // expected // "'")
    end subroutine is_text
 
    !> Check that a text contains another one

@@ -58,7 +58,7 @@ contains
       end do
    end subroutine kernel_is_exact
 
-   !> Under the Hertz pressure of a line contact W + X^2/2 is constant but for an error of order 1.5; direct summation and FFT agree
+   !> Under the Hertz pressure of a line contact W + X^2/2 is constant to an error of order 1.5; direct summation and FFT agree
    subroutine row_is_hertz()
       class(deflection_t), allocatable :: engine
       type(grid_t) :: grid

@@ -223,7 +223,7 @@ contains
       call ieee_set_halting_mode(ieee_invalid, halting)
    end subroutine nan_is_no_cavitation
 
-   !> A level with `points` nodes a side, and its work space
+   !> A level with `points` nodes per side, and its workspace
    subroutine some_level(points, level, space, status)
       integer, intent(in) :: points
       type(level_t), intent(inout) :: level

@@ -35,7 +35,7 @@ errors                                  :func:`model.model_error`
 
 Two surfaces: to first order each is deformed as if the other one were smooth, at its own velocity
 ratio, and the changes of film and pressure by both add up. The second-order terms include products
-of the waves of both surfaces, and the leak depends on their total amplitude. The result does not
+of the waves of both surfaces, and the leakage depends on their total amplitude. The result does not
 depend on the order of the surfaces.
 """
 
@@ -225,7 +225,7 @@ class Model:
     operating: AnyContact
     lubricant: Lubricant
     options: ModelOptions
-    mesh: float = 0.0  # mesh size of the leak of waves [a]; 0: continuous equations
+    mesh: float = 0.0  # mesh size of the leakage of waves [a]; 0: continuous equations
 
     @classmethod
     def of_one(

@@ -177,8 +177,8 @@ AXIS = LINES.size // 2
 FRICTION_LINES = 0.24
 BENDING = 0.2
 
-# Iterations of the leak, which depends on the pressure; each reduces the change to a tenth: two and
-# five give mu_r/mu_s within 1e-5 of that of three
+# Iterations of the leakage, which depends on the pressure; each reduces the change to a tenth: two
+# and five give mu_r/mu_s within 1e-5 of that of three
 REPETITIONS = 3
 
 
@@ -199,13 +199,13 @@ def _bend(kx: Array, slip: float) -> Complex:
 
 
 def leaking_at_amplitude(zone: Zone, variance: float) -> Zone:
-    """Return the contact with the leak of waves of finite pressure.
+    """Return the contact with the leakage of waves of finite pressure.
 
-    The leak is div(rho H^3/(eta lambda) grad P): it is slow where the waves raise the pressure and
-    the viscosity, and most of the friction arises there. For a Gaussian delta P of `variance` s^2
-    [p_h^2] the leak reduces the mean of exp(b delta P), b = d ln eta/dP, at the rate of small waves
-    divided by that mean, exp(b^2 s^2/2). If the flow is shear-thinning, b is that of eta/phi_x, the
-    reduced viscosity, which governs both leak and shear.
+    The leakage is div(rho H^3/(eta lambda) grad P): it is slow where the waves raise the pressure
+    and the viscosity, and most of the friction arises there. For a Gaussian delta P of `variance`
+    s^2 [p_h^2] the leakage reduces the mean of exp(b delta P), b = d ln eta/dP, at the rate of
+    small waves divided by that mean, exp(b^2 s^2/2). If the flow is shear-thinning, b is that of
+    eta/phi_x, the reduced viscosity, which governs both leakage and shear.
     """
     b = zone.thickening
     if zone.factors:
@@ -236,7 +236,7 @@ class _Entering:
             self._inlet *= _bend(kx, self._slip)
 
     def variance(self, zone: Zone, mesh: float) -> float:
-        """Mean square of their pressure at X = 0 with the leak of a zone [p_h^2]."""
+        """Mean square of their pressure at X = 0 with the leakage of a zone [p_h^2]."""
         few = self.table.coarse()
         convected = coarsened(self._inlet[self._axis], 1) * np.exp(1j * few[0] * self._slip)
         driven, free = transport(zone, *few, self.ratio, CENTRE, mesh)[MIDDLE]
@@ -325,9 +325,10 @@ class Transfer:
         """Compute the transfers of the tiles in a contact, each with its velocity ratio.
 
         They are interpolated from tables over |q| and direction; `moes` are M and L of the circular
-        contact with the same inlet. `at_amplitude`: the leak is that at the total amplitude of all
-        tiles (:func:`leaking_at_amplitude`), not that of small waves. `mesh` [a]: the leak is that
-        on a grid; 0: of the continuous equations. All tiles share the second-order pressure.
+        contact with the same inlet. `at_amplitude`: the leakage is that at the total amplitude of
+        all tiles (:func:`leaking_at_amplitude`), not that of small waves. `mesh` [a]: the leakage
+        is that on a grid; 0: of the continuous equations. All tiles share the second-order
+        pressure.
         """
         entering = [_Entering(*tile, zone, moes) for tile in tiles]
         leaking = zone

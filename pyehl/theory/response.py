@@ -171,7 +171,7 @@ def inlet_fit(
     s = np.clip(parameter, low, high)
     c = np.abs(along) / q
     slip = velocity_ratio - 1.0
-    # beyond the range, which is reported, the leak is clipped like s
+    # beyond the range, which is reported, the leakage is clipped like s
     leak = min(1.0, fit["leak"] / (moes_m * moes_l))
     numbers = math.log(moes_l / 10.0), 0.5 * math.log(moes_m / 1000.0), slip, leak
     arrays = _powers(s), _powers(c)

@@ -18,10 +18,11 @@ primes are d/dX; g (rho H)', the change of the smooth film along X, is neglected
 change slowly, so that mu' = a mu + b with a = mu'/mu where no roughness drives. At high viscosity
 eps vanishes: mu arises in the inlet and is then convected at the mean velocity as a wave of
 wavenumber kU (Greenwood & Morales-Espejel 1994; Hooke 1999 to 2007); a part C/(1 + C), C = K H c,
-moves with the roughness by compressibility. eps |q|^2 Pi, the leak by viscous flow (Morales-Espejel
-& Brizmer 2011), matters for short waves and low pressures; the terms after it, the effect of the
-flow of the smooth contact on the wave, matter where the leak is large. In the inlet, where eps
-falls by orders of magnitude, the coefficients change slowly only for short waves: `upstream`.
+moves with the roughness by compressibility. eps |q|^2 Pi, the leakage by viscous flow
+(Morales-Espejel & Brizmer 2011), matters for short waves and low pressures; the terms after it, the
+effect of the flow of the smooth contact on the wave, matter where the leakage is large. In the
+inlet, where eps falls by orders of magnitude, the coefficients change slowly only for short waves:
+`upstream`.
 
 In a shear-thinning lubricant the flow is phi_x times as large along the motion and phi_y times
 across (:mod:`pyehl.theory.shear`). Then eps |q|^2 becomes eps_t k^2 + eps_y k_Y^2 with eps_t =
@@ -45,7 +46,7 @@ from pyehl.types import Array, Complex
 INLET = -0.8
 """Assumed beginning of the zone of high pressure on the centre line [a]."""
 
-# Ends of the steps from P = 0, where the wave leaks freely, to INLET; short where the leak falls
+# Ends of the steps from P = 0, where the wave leaks freely, to INLET; short where the leakage falls
 # below the slip. Halving them changes T of the fitted waves by 0.005 at small slip, by 0.017 at
 # most, for a/32 at 20 % slip; the inlet was fitted with these steps
 APPROACH = np.concatenate(
@@ -181,7 +182,7 @@ class _Waves:
         for change in (self.changing, None):
             linear = 1.0 - by_change * p - bending * t
             constant = self.slip + by_pressure * p + by_film * t
-            # e p a^2 + linear a = constant, the root constant/linear in the limit of a small leak
+            # e p a^2 + linear a = constant, the root constant/linear in the limit of small leakage
             root = 2.0 / (linear + np.sqrt(linear * linear + (4.0 * e) * p * constant))
             a = constant * root
             b = (by_pressure * r + by_film * s) * root
@@ -229,7 +230,7 @@ def upstream(
     lengths = np.diff(APPROACH)
     flow = Flow(zone, APPROACH[:-1] + 0.5 * lengths)
     waves = _Waves(zone, qx, qy, velocity_ratio, spacing)
-    # without leak and slip any mu is a solution; take that of the undeformed wave
+    # without leakage and slip any mu is a solution; take that of the undeformed wave
     mu = np.full(qx.shape, flow.density[0], dtype=complex)
     for i, h in enumerate(lengths):
         a, b, _, _ = waves.at(flow, i)

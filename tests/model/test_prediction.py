@@ -465,7 +465,7 @@ def test_free_waves_are_thicker_where_the_pressure_is_lower(contact, table_1):
 
 
 def test_leak_depends_on_the_square_of_the_amplitude():
-    """The leak depends on the amplitude by its square."""
+    """The leakage depends on the amplitude by its square."""
     case = pyehl.Case.from_text("&contact moes_m = 200.0 moes_l = 10.0 /").resolve()
     point, oil = OperatingPoint.from_settings(case), Lubricant.from_settings(case)
     smooth = solve_contact(case)

@@ -38,7 +38,7 @@ NODES = {257: 14.0, 513: 10.0, 1025: 8.0}
 # Longest fitted wave along the motion [a]: the edge of the contact affects longer ones
 LONGEST = 3.0
 WEIGHT_OF_RIDGES = 3.0
-# M L at which the leak in the inlet, LEAK/(M L), is 1
+# M L at which the leakage in the inlet, LEAK/(M L), is 1
 LEAK = 300.0
 # Penalty on the coefficients, some of which few data determine
 PENALTY = 0.01
@@ -47,7 +47,7 @@ SCALES = (1.0, 1.0, 1.5, 1.5, 5.0, 1.0, 1.0)
 
 
 def _terms() -> list[tuple[int, ...]]:
-    """Powers of s, c, ln(L/10), ln(M/1000)/2, U - 1, the leak and M h^2."""
+    """Powers of s, c, ln(L/10), ln(M/1000)/2, U - 1, the leakage and M h^2."""
 
     def upto(order: int, *others: int) -> list[tuple[int, ...]]:
         """All terms in s and c up to an order, times powers of the others, by default 0."""
@@ -67,7 +67,7 @@ def _terms() -> list[tuple[int, ...]]:
         result += upto(1, *powers)
     for powers in ((1, 0, 2), (0, 1, 2)):
         result += upto(0, *powers)
-    # effect of the leak in the inlet, only at low M L
+    # effect of the leakage in the inlet, only at low M L
     result += upto(5, 0, 0, 0, 1) + upto(4, 0, 0, 0, 2)
     result += upto(4, 0, 0, 1, 1) + upto(4, 0, 0, 2, 1) + upto(3, 0, 0, 1, 2)
     # ridges do not depend on U
@@ -123,7 +123,7 @@ class Data:
 
     @property
     def variables(self) -> tuple[Array, ...]:
-        """Variables s (clipped), c, ln(L/10), ln(M/1000)/2, U - 1, the leak LEAK/(M L), M h^2."""
+        """Variables s (clipped), c, ln(L/10), ln(M/1000)/2, U - 1, leakage LEAK/(M L), M h^2."""
         s = 0.5 * np.log(2.0 * np.pi / self.q * np.sqrt(self.m / self.l))
         return (
             np.clip(s, *PARAMETER),
