@@ -79,7 +79,7 @@ contains
             call refuse("radius_y", "duty.radius_y of a "//trim(input%contact%shape), "duty.radius_x alone")
          end if
          if (abs(input%contact%angle) > 0.0_dp .and. size(d%list("radius_x")) + size(d%list("radius_y")) > 0) then
-            call refuse("radius_x", "radii that change in a turned contact", "contact.angle = 0.0")
+            call refuse("radius_x", "radii that change in a rotated contact", "contact.angle = 0.0")
          end if
          if (d%periodic) call check_period()
          if (source%first_given("time") /= "") call source%refuse(source%first_given("time"), source%first_given("time")// &

@@ -228,7 +228,7 @@ contains
 
       if (input%grid%border == "flooded" .and. .not. contact%is_even()) call source%refuse("grid.border", &
          "grid.border = 'flooded' with contact.angle = "//to_text(input%contact%angle), &
-         "'zero': the pressure far from a turned contact is not known", status)
+         "'zero': the pressure far from a rotated contact is not known", status)
       ends = [-input%grid%x_inlet, input%grid%x_outlet, input%grid%y_extent]
       reach = contact%reach([1, 1, 2])
       do k = 1, merge(2, 3, input%contact%is_cylinder())

@@ -72,8 +72,8 @@ module ehl_smooth_contact
       !> Whether coarse grids leave spikes to relaxation on all levels: the last attempt at a wide contact
       logical, private :: spares_spikes = .false.
       type(guard_t), private :: guard
-      !> Whether a line is solved with a flooded inlet. It has no side flow and is first solved as flooded; the layer limits the flow
-      !> only if the flooded contact needs more.
+      !> Whether a line is solved with a flooded inlet. It has no side flow and is first solved as flooded; the layer limits the
+      !> flow only if the flooded contact needs more.
       logical, private :: flooded_inlet = .false.
       !> Meniscus of a starved line, fixed if cycles with a free one have failed
       type(meniscus_t), private :: meniscus

@@ -151,7 +151,7 @@ def curve(
     """Compute a curve over a control; yields all points so far, until the curve is outdated."""
     result: list[CurvePoint] = []
     for value in values:
-        made = _curve_point(position.turned(over, value), value, wanted, points)
+        made = _curve_point(position.changed(over, value), value, wanted, points)
         if made is None:
             return
         result.append(made)

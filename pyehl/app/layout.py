@@ -81,7 +81,7 @@ document.querySelectorAll('.picture').forEach((part, k) => part.hidden = k !== t
 class _Handlers(Protocol):
     """Handlers of the page for events."""
 
-    def turned(self, name: str, value: Value) -> None: ...
+    def changed(self, name: str, value: Value) -> None: ...
     def open_case(self, name: str, data: bytes) -> None: ...
     def upload(self, name: str, data: bytes) -> None: ...
     def draw_curve(self, over: str) -> None: ...
@@ -103,7 +103,7 @@ class Layout:
 
     def __init__(self, handlers: _Handlers, pictures: Pictures, start: Position) -> None:
         self.controls = {
-            control.name: ControlWidget(control, start.values[control.name], handlers.turned)
+            control.name: ControlWidget(control, start.values[control.name], handlers.changed)
             for group in GROUPS.values()
             for control in group
         }

@@ -95,9 +95,9 @@ class Page:
         """Call a function once all parts of the present message have arrived."""
         self.document.add_next_tick_callback(do)
 
-    def turned(self, name: str, value: Value) -> None:
+    def changed(self, name: str, value: Value) -> None:
         """Apply a changed control; an error is shown there, and the results stay."""
-        wish = self._wish.turned(name, value)
+        wish = self._wish.changed(name, value)
         self.layout.show_controls(wish.values)
         if name in ("map_x", "map_y") and self._pending is not None:
             self._wish = wish
@@ -105,7 +105,7 @@ class Page:
             return
         # the contact is smooth until there is a map
         missing = wish.values["surface"] == "map" and not wish.file
-        tried = wish.turned("surface", "smooth") if missing else wish
+        tried = wish.changed("surface", "smooth") if missing else wish
         try:
             tried.case(COARSE)
             if tried.values["surface"] == "map" and name in ("surface", "map_x", "map_y"):
@@ -189,7 +189,7 @@ class Page:
         """Add a height map, or show the error of its reader."""
         try:
             path = self.uploads.add(name, data, self._wish.map_message())
-            wish = replace(self._wish.turned("surface", "map"), file=path)
+            wish = replace(self._wish.changed("surface", "map"), file=path)
             wish.case(COARSE)
         except InputError as error:
             self._pending = name, data

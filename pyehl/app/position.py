@@ -79,7 +79,7 @@ class Position:
     file: str = ""
     oil: Value = "at the inlet"
 
-    def turned(self, name: str, value: Value) -> Self:
+    def changed(self, name: str, value: Value) -> Self:
         """Give the position with a control changed."""
         modulus = 0.0 if name in STEEL else self.modulus
         return replace(self, values={**self.values, name: value}, modulus=modulus)

@@ -17,12 +17,12 @@ NOTHING = {"display": "none"}
 
 
 class ControlWidget:
-    """A control on the page; a change by the user calls `turned` with its name and value."""
+    """A control on the page; a change by the user calls `changed` with its name and value."""
 
     def __init__(
-        self, control: Control | Choice, value: Value, turned: Callable[[str, Value], None]
+        self, control: Control | Choice, value: Value, changed: Callable[[str, Value], None]
     ) -> None:
-        self.control, self._turned = control, turned
+        self.control, self._changed = control, changed
         # set while the page itself changes the control
         self._quiet = False
         self.error = Div(
@@ -47,7 +47,7 @@ class ControlWidget:
         self.field.on_change("value", self._typed)
 
     def set(self, value: Value) -> None:
-        """Set the control without calling `turned`."""
+        """Set the control without calling `changed`."""
         self._quiet = True
         self.field.value = str(value) if isinstance(self.control, Choice) else _text(value)
         if isinstance(self.control, Control):
@@ -68,7 +68,7 @@ class ControlWidget:
         self._quiet = True
         self.field.value = _text(value)
         self._quiet = False
-        self._turned(self.control.name, value)
+        self._changed(self.control.name, value)
 
     def _typed(self, attribute: str, old: str, new: str) -> None:
         if self._quiet:
@@ -82,7 +82,7 @@ class ControlWidget:
             self._quiet = True
             self.slider.value = self.control.place(float(value))
             self._quiet = False
-        self._turned(self.control.name, value)
+        self._changed(self.control.name, value)
 
 
 def _text(value: Value) -> str:

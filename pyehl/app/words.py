@@ -42,9 +42,9 @@ def film_rows(result: Film) -> list[tuple[str, str]]:
         rows.append(("contact radius a", f"{point.hertz_radius * 1e6:.4g} µm"))
     else:
         both = f"{point.hertz_radius * 1e6:.4g} × {point.semi_axis_y * 1e6:.4g} µm"
-        turned = float(s.get("angle_deg") or 0.0)
-        if turned:
-            rows.append(("semi-axes", f"{both}, turned by {turned:g}° against the motion"))
+        angle = float(s.get("angle_deg") or 0.0)
+        if angle:
+            rows.append(("semi-axes", f"{both}, rotated by {angle:g}° against the motion"))
         else:
             rows.append(("semi-axes, along × across", both))
     rows.append(("regime", regime(point.moes_m, point.moes_l, point.ellipse)))

@@ -164,7 +164,7 @@ def _values(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
         yield "radius_y", f"duty.radius_y of a {contact.shape}", "duty.radius_x alone"
     if contact.angle != 0.0 and (duty.radius_x or duty.radius_y):
         key = "radius_x" if duty.radius_x else "radius_y"
-        yield key, "radii that change in a turned contact", "contact.angle = 0.0"
+        yield key, "radii that change in a rotated contact", "contact.angle = 0.0"
 
 
 def _where(duty: Duty, values: Sequence[float]) -> str:

@@ -41,7 +41,7 @@ def check_extent(draft: Draft) -> None:
     g, angle = draft.settings.grid, draft.settings.contact.angle
     if g.border == "flooded" and angle != 0.0 and draft.settings.contact.radius_ratio != 1.0:
         what = f"grid.border = 'flooded' with contact.angle = {to_text(angle)}"
-        expected = "'zero': the pressure far from a turned contact is not known"
+        expected = "'zero': the pressure far from a rotated contact is not known"
         draft.refuse("grid.border", what, expected)
     point = physics.point(draft.settings)
     # a line has no sides, and those of a roller are its ends

@@ -71,7 +71,7 @@ class Contact:
         0.0,
         "deg",
         "[-90, 90]",
-        "angle by which an elliptical contact is turned counter-clockwise from the motion",
+        "angle by which an elliptical contact is rotated counter-clockwise from the motion",
     )
     slide_to_roll: float = real(
         0.02,

@@ -278,7 +278,7 @@ def report(values: Mapping[str, Any]) -> str:
             f"    b/a = {v['ellipticity']:.5g}",
         ]
         if v["angle_deg"]:
-            axes.append(f"  both turned by              {v['angle_deg']:12.5g} deg")
+            axes.append(f"  both rotated by             {v['angle_deg']:12.5g} deg")
     lines = [
         f"{'Line contact' if line else 'Contact'}{origin}",
         f"  load                 w      {load}",

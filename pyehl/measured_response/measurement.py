@@ -22,7 +22,7 @@ from pyehl.case import Case
 from pyehl.destination import Destination, file_errors, new_file
 from pyehl.errors import EhlError, InputError
 from pyehl.measured_response.superposition import WaveSet, step_counts, superpose
-from pyehl.prediction.predict import turned
+from pyehl.prediction.predict import oblique
 from pyehl.studies.journal import difference
 from pyehl.studies.pool import processors
 from pyehl.theory.operating import OperatingPoint
@@ -143,7 +143,7 @@ def measure(
     tiers remain.
     """
     settings = case.resolve()
-    why = turned(settings)
+    why = oblique(settings)
     if why:
         raise InputError(why)
     ratio = float(settings["surface"]["velocity_ratio"])

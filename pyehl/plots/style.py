@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Common parts of all pictures: the style sheet, sizes, colours, units, letters.
 
-Figures are drawn for print: letters of 8 points, one column or one page wide, no titles. Maps are
+Figures are drawn for print: text of 8 points, one column or one page wide, no titles. Maps are
 colour-blind safe; lengths are in mm, films in nm or um, pressures in GPa if scales are given, else
 in Hertz units. Labels are plain text if possible: typesetting mathematics takes as long as the rest
 of a panel.

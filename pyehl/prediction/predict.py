@@ -192,8 +192,8 @@ def _time(seconds: float) -> str:
 
 def unpredictable(settings: Settings) -> str:
     """Say why a resolved case has no prediction; '' if it has one."""
-    if turned(settings):
-        return turned(settings)
+    if oblique(settings):
+        return oblique(settings)
     groups = rough_groups(settings)
     if not groups:
         return "surface.kind = 'smooth': a prediction needs a rough surface"
@@ -208,7 +208,7 @@ def unpredictable(settings: Settings) -> str:
     return ""
 
 
-def turned(settings: Settings) -> str:
+def oblique(settings: Settings) -> str:
     """Say why an ellipse has no response; '' if an axis lies along the motion."""
     angle = float(settings["contact"].get("angle", 0.0))
     if angle == 0.0 or contact_of(settings).radius_ratio == 1.0:

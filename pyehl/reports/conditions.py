@@ -29,7 +29,7 @@ def conditions(settings: Settings) -> dict[str, str]:
         across = point.radius / point.radius_ratio
         result["reduced radii R_x, R_y"] = f"{point.radius * 1e3:.6g}, {across * 1e3:.6g} mm"
         if contact.get("angle"):
-            result["turned by"] = f"{contact['angle']:g} deg against the motion"
+            result["rotated by"] = f"{contact['angle']:g} deg against the motion"
     result["reduced modulus E'"] = f"{point.reduced_modulus * 1e-9:.6g} GPa, 2/E' = Σ(1−ν²)/E"
     result["viscosity η₀"] = f"{float(lubricant['viscosity']):.5g} Pa s at ambient pressure"
     if lubricant.get("name"):

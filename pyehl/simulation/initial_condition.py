@@ -21,7 +21,7 @@ from pyehl.handle import SolverHandle, start_fronts, take_start
 from pyehl.prediction.friction import mean
 from pyehl.prediction.model import Model, ModelOptions, RoughSurface, model_error
 from pyehl.prediction.moving_tile import REACH, Component, line_weights, slipped, station_weights
-from pyehl.prediction.predict import turned
+from pyehl.prediction.predict import oblique
 from pyehl.prediction.response import Transfer
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
@@ -125,8 +125,8 @@ def _model(
     settings: Settings, tiles: Mapping[str, Topography], mesh: float, fronts: Array
 ) -> Model:
     """Model of a resolved case with the leakage of a grid, and with tiles at fronts [a]."""
-    if turned(settings):
-        raise InputError(turned(settings))
+    if oblique(settings):
+        raise InputError(oblique(settings))
     if settings["contact"].get("shape") == "line":
         raise InputError("contact.shape = 'line': no pressure is predicted to begin with")
     operating = OperatingPoint.from_settings(settings)

@@ -16,7 +16,7 @@ from pyehl.case import Case, files_of
 from pyehl.case.duty import refuse_duty
 from pyehl.contact.smooth import CYCLES, touching_points
 from pyehl.errors import InputError
-from pyehl.prediction.predict import turned, unpredictable
+from pyehl.prediction.predict import oblique, unpredictable
 from pyehl.studies.plan import TaskList, check_maps, check_memory, duration, wall_seconds
 from pyehl.studies.study import MAX_CASES, Axis, Point, Study, make
 from pyehl.studies.tasks import Task
@@ -164,7 +164,7 @@ def _check_share(settings: Settings) -> None:
 def _check(settings: Settings, seeds: int, ehl: int) -> None:
     """Refuse cases that have no curve."""
     groups = surfaces.rough_groups(settings)
-    why = unpredictable(settings) if groups else turned(settings)
+    why = unpredictable(settings) if groups else oblique(settings)
     if why:
         raise InputError(why)
     if not groups and ehl:

@@ -176,8 +176,8 @@ def friction_of(
         why = data.attrs.get("mu_note", "the result states no coefficient of friction")
         return math.nan, math.nan, f"without friction: {why}"
     heat = (mu[2] / mu[3]) / (mu[0] / mu[1]) if all(map(math.isfinite, mu)) else 1.0
-    note = f"traction by the shear law of the oil, in sum mu_smooth = {smooth:.4g}" + (
-        ", scaled for heat" if math.isfinite(mu[1]) and mu[1] != mu[0] else ""
+    note = f"traction by the shear law of the oil, scaled to mu_smooth = {smooth:.4g}" + (
+        " and for heat" if math.isfinite(mu[1]) and mu[1] != mu[0] else ""
     )
     return smooth, heat, note
 

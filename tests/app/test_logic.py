@@ -39,7 +39,7 @@ def test_sliders_reach_their_ends(name):
     assert control.at(STEPS) == pytest.approx(control.high)
     values = [control.at(place) for place in range(STEPS + 1)]
     assert values == sorted(values)
-    # three digits are finer than a step of wide ranges
+    # values have three digits, which may be coarser than a step
     assert all(abs(control.place(float(v)) - k) <= 3 for k, v in enumerate(values))
 
 
@@ -95,9 +95,9 @@ def test_opened_case_is_the_case(text):
 def test_oil_of_a_data_sheet_can_be_replaced():
     position, _ = from_case(Case.from_text(CASES["sheet"]))
     assert position.values["oil"] == "of the data sheet"
-    turned = position.turned("oil", "at the inlet").turned("viscosity", 0.05)
-    assert turned.case(65).resolve()["lubricant"]["viscosity"] == 0.05
-    assert turned.turned("oil", "of the data sheet").case(65).text == position.case(65).text
+    changed = position.changed("oil", "at the inlet").changed("viscosity", 0.05)
+    assert changed.case(65).resolve()["lubricant"]["viscosity"] == 0.05
+    assert changed.changed("oil", "of the data sheet").case(65).text == position.case(65).text
 
 
 def test_bodies_become_radii_and_modulus():
@@ -123,14 +123,14 @@ def test_moduli_of_the_bodies_of_a_case_are_kept():
     ]
     assert result == [208.0, 0.28, 207.0, 0.3]
     # to the opened case and back: the controls do not jump
-    back = position.turned("modulus_1", 150.0).turned("modulus_1", 208.0)
+    back = position.changed("modulus_1", 150.0).changed("modulus_1", 208.0)
     expected = case.resolve()["contact"]["reduced_modulus"]
     assert back.reduced_modulus() == pytest.approx(expected, rel=1e-10)
     _, note = from_case(Case.from_text("&contact reduced_modulus = 1.4e11 /"))
     assert "E' = 140 GPa until a modulus is changed" in note
 
 
-def test_a_turned_ellipse_is_drawn_at_its_angle():
+def test_a_rotated_ellipse_is_drawn_at_its_angle():
     text = "&contact radius_x = 0.01 radius_y = 0.03 angle = 30.0 load = 100.0 /"
     result = answers.film(from_case(Case.from_text(text))[0], 65, always)
     assert result.converged
@@ -142,28 +142,28 @@ def test_a_turned_ellipse_is_drawn_at_its_angle():
     for half, line in zip(edge.chords, drawing.centre_lines(result).values(), strict=True):
         inside = np.abs(line["place"]) < half * radius
         assert np.array_equal(line["hertz"] > 0.0, inside)
-    assert "turned by 30°" in dict(words.film_rows(result))["semi-axes"]
+    assert "rotated by 30°" in dict(words.film_rows(result))["semi-axes"]
 
 
-def test_the_film_is_kept_while_the_surface_is_turned(start, monkeypatch):
-    position = start.turned("load", 100.0)
+def test_the_film_is_kept_while_the_surface_changes(start, monkeypatch):
+    position = start.changed("load", 100.0)
     known = {65: answers.film(position, 65, always)}
     formulas = answers.api.film
     asked = []
     monkeypatch.setattr(answers.api, "film", lambda case: asked.append(1) or formulas(case))
-    rough = position.turned("surface", "fractal").turned("seed", 7)
+    rough = position.changed("surface", "fractal").changed("seed", 7)
     assert answers.film(rough, 65, always, known) is known[65]
     # on another grid the formulas are the same
     finer = answers.film(rough, 129, always, known)
     assert finer.points == 129
     assert not asked
-    again = answers.film(rough.turned("load", 101.0), 65, always, known)
+    again = answers.film(rough.changed("load", 101.0), 65, always, known)
     assert again.point.moes_m > known[65].point.moes_m
     assert asked
 
 
 def test_contours_are_lines_of_equal_film(start):
-    made = drawing.film_map(answers.film(start.turned("load", 100.0), 65, always))
+    made = drawing.film_map(answers.film(start.changed("load", 100.0), 65, always))
     x, y = drawing.contour_lines(made)
     assert np.array_equal(np.isnan(x), np.isnan(y))
     inner = ~np.isnan(x)
@@ -194,15 +194,15 @@ def test_cases_beyond_the_controls_are_refused(text, why):
 
 
 def test_moduli_of_the_bodies(start):
-    turned = start.turned("modulus_1", 70.0)
+    changed = start.changed("modulus_1", 70.0)
     expected = 2.0 / (0.91 / 70e9 + 0.91 / 206e9)
-    assert turned.reduced_modulus() == pytest.approx(expected, rel=1e-10)
+    assert changed.reduced_modulus() == pytest.approx(expected, rel=1e-10)
     with pytest.raises(InputError, match="body 1"):
-        start.turned("poisson_1", 0.7).case(65)
+        start.changed("poisson_1", 0.7).case(65)
 
 
 def test_film_is_that_of_a_run(start):
-    position = start.turned("load", 200.0)
+    position = start.changed("load", 200.0)
     result = answers.film(position, 65, always)
     run = pyehl.solve(position.case(65))
     assert result.summary["h_c_m"] == float(run.h_c_m)
@@ -214,7 +214,7 @@ def test_film_is_that_of_a_run(start):
 
 
 def test_ellipse_has_a_film_and_says_why_there_is_no_prediction(start):
-    position = start.turned("load", 100.0).turned("radius_y", 40.0).turned("surface", "fractal")
+    position = start.changed("load", 100.0).changed("radius_y", 40.0).changed("surface", "fractal")
     result = answers.film(position, 65, always)
     assert result.converged
     assert "semi-axes, along × across" in dict(words.film_rows(result))
@@ -227,7 +227,7 @@ def test_ellipse_has_a_film_and_says_why_there_is_no_prediction(start):
 
 
 def test_no_solution_is_no_number(start):
-    result = answers.film(start.turned("load", 4000.0).turned("velocity", 0.1), 65, always)
+    result = answers.film(start.changed("load", 4000.0).changed("velocity", 0.1), 65, always)
     assert not result.converged
     rows = dict(words.film_rows(result))
     assert rows["h_c"] == rows["h_min"] == "no solution"
@@ -240,7 +240,7 @@ def test_superseded_computations_end(start):
 
 
 def test_rough_contact_is_that_of_a_prediction(start):
-    position = start.turned("surface", "fractal")
+    position = start.changed("surface", "fractal")
     result = answers.rough(position)
     prediction = pyehl.predict(position.case(257))
     rows = dict(words.rough_rows(result))
@@ -265,7 +265,7 @@ def test_rough_contact_is_that_of_a_prediction(start):
 
 
 def test_film_breakdown_suggests_a_cut_off(start):
-    position = start.turned("surface", "fractal").turned("rms", 400.0)
+    position = start.changed("surface", "fractal").changed("rms", 400.0)
     rows = words.rough_rows(answers.rough(position))
     names = [name for name, _ in rows]
     assert "suggested cut-off" in names
@@ -274,7 +274,7 @@ def test_film_breakdown_suggests_a_cut_off(start):
 
 
 def test_python_lines_give_the_numbers(start, capsys):
-    position = start.turned("load", 200.0).turned("surface", "fractal")
+    position = start.changed("load", 200.0).changed("surface", "fractal")
     exec(words.python_lines(position, 65), {})
     lines = capsys.readouterr().out.split()
     result = answers.film(position, 65, always)
@@ -284,7 +284,7 @@ def test_python_lines_give_the_numbers(start, capsys):
 
 
 def test_case_file_is_short_and_complete(start):
-    position = start.turned("shear_law", "eyring").turned("surface", "fractal")
+    position = start.changed("shear_law", "eyring").changed("surface", "fractal")
     text = position.text(257)
     assert "!" not in text
     assert Case.from_text(text).resolve() == position.case(257).resolve()
@@ -295,7 +295,7 @@ def test_downloads(start):
     import io
     import zipfile
 
-    position = start.turned("load", 100.0)
+    position = start.changed("load", 100.0)
     page = downloads.report_page(position, 65)
     assert b"Full film" in page
     data = downloads.figures(position, 65, "svg", 0.084)
@@ -306,7 +306,7 @@ def test_downloads(start):
 
 
 def test_curve(start):
-    position = start.turned("load", 100.0)
+    position = start.changed("load", 100.0)
     values = answers.places(position, "velocity", 3)
     assert values == [0.21, 0.84, 3.36]
     *_, last = answers.curve(position, "velocity", values, always, 65)
@@ -338,7 +338,7 @@ def test_many_changes_leave_no_memory_behind(start):
 
     def film_and_back() -> None:
         for k in range(100):
-            position = start.turned("load", 100.0 + k).turned("velocity", 2.0)
+            position = start.changed("load", 100.0 + k).changed("velocity", 2.0)
             assert answers.film(position, 33, always) is not None
 
     film_and_back()
@@ -392,6 +392,6 @@ def test_axis_numbers_fit_the_axes():
     for name, picture in Pictures().figures.items():
         if name.endswith("_hint") or name == "bands":
             continue
-        # a number of six letters takes 40 pixels
+        # a number of six characters takes 40 pixels
         assert picture.xaxis[0].ticker.desired_num_ticks == TICKS
         assert TICKS * 40 < picture.width - 100

@@ -20,7 +20,7 @@ import pyehl
 Array = NDArray[np.float64]
 HERE = Path(__file__).resolve().parent
 COMPLETED = ("bodies.", "lubricant.name", "lubricant.kinematic", "lubricant.table")
-"""Keys from which Python derives keys for the program."""
+"""Beginnings of keys that only pyehl reads, from which it derives keys for `ehl`."""
 
 
 @dataclass(frozen=True)

@@ -111,7 +111,7 @@ def test_pressure_spike_of_few_nodes_converges():
     assert result["H_c"] / usual["H_c"] == pytest.approx((25.0 / 24.0) ** 0.6, rel=2e-3)
 
 
-def test_damping_on_all_levels_fails_before_the_finest_alone():
+def test_damping_on_the_finest_level_alone_converges():
     """Damped cycles fail on coarse levels here; damping on the finest level alone converges."""
     result = solved(case_of(600.0, 40.0, 129))
     assert result["restarts"] == 2

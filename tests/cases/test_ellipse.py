@@ -406,7 +406,7 @@ def test_radius_ratios_from_0_1_to_10(solve, kappa: float):
         ),
         (
             ["contact.radius_ratio=0.2", "contact.angle=20", "grid.border=flooded"],
-            "a turned contact is not known",
+            "a rotated contact is not known",
         ),
         (
             ["contact.radius_ratio=0.2", "contact.angle=80", "grid.x_outlet=1.5"],

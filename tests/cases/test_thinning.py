@@ -35,8 +35,8 @@ CARREAU = PAPER | {
 WAVE = {"surface.kind": "harmonic", "surface.amplitude": 5e-4, "time.steps": 12}
 
 
-def test_fast_sliding_eyring_as_a_newton_solver(solve):
-    """Table 1 at a slide-to-roll ratio of 2, on the same grid."""
+def test_fast_sliding_eyring_agrees_with_a_newton_solver(solve):
+    """Against an independent solver on the same grid: Table 1 at a slide-to-roll ratio of 2."""
     done = solve(None, 129, TABLE1 | {"contact.slide_to_roll": 2.0})
     assert done["h_c_m"] == pytest.approx(1.89568e-7, rel=1e-3)
     assert done["h_min_m"] == pytest.approx(5.669e-8, rel=3e-3)
@@ -46,14 +46,14 @@ def test_fast_sliding_eyring_as_a_newton_solver(solve):
 @pytest.mark.parametrize(
     ("srr", "h_c", "h_min"), [(0.1, 6.6841e-7, 4.5041e-7), (0.0, 6.6982e-7, 4.5062e-7)]
 )
-def test_carreau_as_a_newton_solver(solve, srr, h_c, h_min):
+def test_carreau_agrees_with_a_newton_solver(solve, srr, h_c, h_min):
     """Films in the limit of fine grids: a fifth thinner than that of a Newtonian oil."""
     done = solve(None, 129, CARREAU | {"contact.slide_to_roll": srr})
     length = done["h_c_m"] / done["H_c"]
     assert done["H_c_extrapolated"] * length == pytest.approx(h_c, rel=1e-3)
     assert done["H_min_extrapolated"] * length == pytest.approx(h_min, rel=2e-3)
     if srr:
-        # the other one omits the cavity, half a per cent here
+        # the other solver omits the cavity, half a per cent here
         assert done["mu_smooth"] == pytest.approx(0.005821, rel=1e-2)
 
 

@@ -24,7 +24,7 @@ LAYERS = [
 RANK = {folder: rank for rank, folders in enumerate(LAYERS) for folder in folders}
 # First line of a program, a module or a submodule
 UNIT = r"^\s*(?:module|program|submodule\s*\(\w+\))\s+(\w+)\s*$"
-# Numerics takes plain arguments; only layers up to the plan use words of a case file
+# The numerical layers take plain arguments, not the types of a case
 NUMERICS = (
     "physics",
     "contact",
@@ -101,7 +101,7 @@ OWNED = [
 
 @pytest.mark.parametrize(("owner", "pattern"), OWNED)
 def test_each_routine_has_one_module(root: Path, owner: str, pattern: str):
-    """Discrete equations and the macroscopic contact are implemented once; other code calls."""
+    """Discrete equations and the macroscopic contact are implemented in one module each."""
     library = root / "fortran"
     # symmetric operators, their transfers and products are no discretisation
     apart = {"app", "bind", "test"}

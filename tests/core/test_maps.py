@@ -130,7 +130,7 @@ def test_program_refuses_exports(tmp_path: Path, drive):
 
 
 @pytest.mark.parametrize(("numbers", "order"), [("f8", "C"), ("f4", "C"), ("f4", "F")])
-def test_arrays_as_they_are_have_the_same_bits(tmp_path: Path, drive, numbers: str, order):
+def test_unprepared_arrays_have_the_same_bits(tmp_path: Path, drive, numbers: str, order):
     np.save(tmp_path / "map.npy", np.array(heights(), dtype=numbers, order=order))
     size = f"length_x = {LENGTH} length_y = {LENGTH}"
     case = write_case(tmp_path / "case.nml", "map.npy", size)

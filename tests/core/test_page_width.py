@@ -34,7 +34,7 @@ def moving(tmp_path_factory, root: Path) -> Path:
     ],
 )
 @pytest.mark.long
-def test_pdf_is_as_wide_as_asked_with_its_fonts(moving, tmp_path, given, wide):
+def test_pdf_has_the_requested_width_and_its_fonts(moving, tmp_path, given, wide):
     words = ["plot", str(moving), "-o", str(tmp_path), "--format", "pdf", "--width", given]
     assert main(words) == 0
     files = sorted(tmp_path.glob("*.pdf"))

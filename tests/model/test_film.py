@@ -99,7 +99,7 @@ def test_ellipses():
     assert turned["formulas"] == []
     assert turned["hertz_pressure_Pa"] == straight["hertz_pressure_Pa"]
     page = report(turned)
-    assert "both turned by                        30 deg" in page
+    assert "both rotated by                       30 deg" in page
     assert page.endswith("the formulas need an axis along the motion")
 
 

@@ -134,7 +134,7 @@ def test_predicted_before_simulated(root: Path):
         p, s = float(stated[name]["mu_ratio"]), float(row["mu_ratio"])
         held.append(abs(p - s) <= float(stated[name]["mu_ratio_model_error"]))
         limit = 0.005 if name[0] == "e" else 0.02 if s < 1.5 else 0.06
-        # one transverse wave deviates by 2.3 %, one drawn strip by 2.7 %: the page states both
+        # one transverse wave deviates by 2.3 %, one random strip by 2.7 %: the page states both
         assert abs(p / s - 1.0) < {"across2": 0.025, "d3": 0.028}.get(name, limit)
     assert len(held) >= 25
     assert np.mean(held) >= 0.9

@@ -158,7 +158,7 @@ def test_an_isotropic_surface_follows_from_its_profile():
 
 
 @pytest.mark.long
-def test_a_profile_as_ridges(tmp_path, z):
+def test_a_profile_extended_to_ridges(tmp_path, z):
     path = tmp_path / "ridges.prf"
     path.write_text(mahr(z))
     case = pyehl.Case.from_text(f"&surface kind = 'map' file = '{path}' profile = 'ridges' /")
@@ -174,7 +174,7 @@ def test_a_profile_as_ridges(tmp_path, z):
     )
 
 
-def test_a_profile_as_an_isotropic_surface(tmp_path, z):
+def test_a_profile_extended_to_an_isotropic_surface(tmp_path, z):
     path = tmp_path / "p.prf"
     path.write_text(mahr(z))
     case = pyehl.Case.from_text(

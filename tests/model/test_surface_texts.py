@@ -442,7 +442,7 @@ def test_spip_and_wyko_keep_their_lines(tmp_path: Path):
     check(path, MISSING)
 
 
-def test_profiles_are_named_as_such(tmp_path: Path):
+def test_profiles_are_reported_as_profiles(tmp_path: Path):
     z = [f"{v:.4f}" for v in Z[:, 0]]
     mahr = ["1 2", "SAMPLE 0.000000e+00 PRF", "CX M 2.000000e+03 MM 1.0e+00 D", "EOR", *z]
     columns = [f"{0.0005 * n:.4f};{v}".replace(".", ",") for n, v in enumerate(z)]

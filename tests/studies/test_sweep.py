@@ -66,7 +66,7 @@ def test_table_is_that_of_single_runs(done: tuple[Path, str], cases: Path):
         assert float(row["seconds"]) > 0.0
 
 
-def test_netcdf_has_what_was_varied_as_dimensions(done: tuple[Path, str]):
+def test_netcdf_has_varied_keys_as_dimensions(done: tuple[Path, str]):
     with xr.open_dataset(done[0] / "results.nc") as data:
         assert data.H_c.dims == ("moes_m", "moes_l")
         assert data.H_c.shape == (4, 2)

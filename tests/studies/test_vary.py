@@ -72,7 +72,7 @@ def test_values_of_python():
             axis("a.b", wrong)
 
 
-def test_options_are_as_a_case_file_has_them():
+def test_options_have_the_values_of_a_case_file():
     assert option("a.b", True) == "a.b=.true."
     assert option("a.b", 1e-5) == "a.b=1e-05"
     assert option("a.b", 0.1 + 0.2) == "a.b=0.30000000000000004"
