@@ -17,7 +17,7 @@ WAVE = """&contact load = 20.0 /
 &surface kind = 'harmonic' amplitude_over_film = 0.2 wavelength = 0.8 /
 """
 QUANTITIES = ("H_c", "H_min", "P_max", "F", "mu_ratio", "cycles", "total_cycles", "steps")
-# Relative. Rounding is 1e-16, and each cycle and step reduces what is left of the one before
+# Relative. Rounding is 1e-16, and each cycle and step reduces the difference of the previous one
 ROUNDING = 1e-11
 
 INSIDE = """
@@ -39,7 +39,7 @@ print(json.dumps({"numbers": {k: v for k, v in numbers.items() if np.isfinite(v)
 
 
 def solve(build: str, case: str, fields: str) -> dict:
-    """Solve a case with one build in a process of its own."""
+    """Solve a case with one build in a separate process."""
     out = subprocess.run(
         [sys.executable, "-c", INSIDE, case, fields],
         env={**os.environ, "PYEHL_CPU": build},
@@ -63,9 +63,9 @@ def main() -> None:
     for case in ("cases/quick.nml", "wave.nml"):
         runs = {b: solve(b, case, f"{b}.npz") for b in ("baseline", "x86-64-v3")}
         for build, found in runs.items():
-            strangers = [lib for lib in found["libs"] if not lib.startswith(sys.prefix)]
+            foreign = [lib for lib in found["libs"] if not lib.startswith(sys.prefix)]
             assert found["libs"]
-            assert not strangers, f"not from the wheel: {strangers}"
+            assert not foreign, f"not from the wheel: {foreign}"
             assert ("-march=x86-64-v3" in found["build"]) == (build == "x86-64-v3"), found["build"]
             h_c = program(build, case, f"out-{build}-{Path(case).stem}")
             assert h_c == found["numbers"]["H_c"], "program and extension differ"
@@ -82,11 +82,11 @@ def main() -> None:
             assert difference <= ROUNDING, f"{name} differs by more than {ROUNDING}"
         if "seconds_per_step" in low["numbers"]:
             a, b = (found["numbers"]["seconds_per_step"] for found in runs.values())
-            print(f"  seconds a step {a:.2e}, {b:.2e}: {a / b:.2f} times faster")
+            print(f"  seconds per step {a:.2e}, {b:.2e}: {a / b:.2f} times faster")
         fields = [np.load(f"{build}.npz") for build in runs]
         for name in ("P", "H"):
             most = np.abs(fields[0][name] - fields[1][name]).max()
-            print(f"  {name} largest difference of a node {most:.1e}")
+            print(f"  {name} maximum nodal difference {most:.1e}")
     for build in ("baseline", "x86-64-v3"):
         env = {**os.environ, "PYEHL_CPU": build}
         subprocess.run(

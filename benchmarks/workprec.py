@@ -113,7 +113,7 @@ def _run(
 ) -> list[Row]:
     texts = [*problem.options, *options, f"grid.points={points}", f"solver.threads={threads}"]
     if problem.rough:
-        # the coarser run is a row of its own
+        # the coarser run is a separate row
         texts.append("time.estimate_error=.false.")
     began = processor_seconds()
     with Solver(Case.from_text("", texts)) as solver:

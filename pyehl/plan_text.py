@@ -137,7 +137,7 @@ def _surfaces(v: Values, settings: Settings) -> Iterator[str]:
     if v["some_stationary"]:
         yield f"{INDENT}the smooth contact is solved first, then that with the roughness at rest"
     else:
-        yield f"{INDENT}the smooth contact is solved once, at first"
+        yield f"{INDENT}the smooth contact is solved first, once"
     if v["move"] and not v["duty"]:
         yield from _time(v)
     if v["coarse_run"]:
@@ -220,14 +220,14 @@ def _time(v: Values) -> Iterator[str]:
     mesh = fixed(v["mesh_x"], 6)
     yield f"time       {SCHEMES[v['narrow_scheme']]}, step = mesh size = {mesh}"
     if v["predicted_start"]:
-        yield "start      with the contact full of roughness, from the prediction"
+        yield "start      with the contact filled with roughness, from the predicted pressure"
     if "fallback_reason" in v:
         yield f"start      behind a front, without a prediction: {v['fallback_reason']}"
     if v["steps"] > 0:
         yield f"end        after {v['steps']} steps"
     elif v["pass_once"]:
         yield (
-            "end        when it has left the contact, with the film that it made in the inlet: "
+            "end        when the feature and the film that it formed in the inlet have left: "
             f"T = {fixed(v['end_of_passage'], 4)}"
         )
     else:
@@ -254,7 +254,7 @@ def _waves(v: Values, members: list[dict[str, Any]]) -> Iterator[str]:
                 f"slope {fixed(slope, 5)}{together}"
             )
     text = (
-        f"waves      with fewer than 8 nodes a period hold {_percent(v['unresolved'])} of the "
+        f"waves      with fewer than 8 nodes per period hold {_percent(v['unresolved'])} of the "
         "variance of "
     )
     if v["pass_once"] and len(members) == 1:
@@ -314,8 +314,8 @@ def _cycles(v: Values) -> str:
     if v.get("move") or v["duty"]:
         coarsening = "Alcouffe" if v["alcouffe"] else "classical"
         text += (
-            f", time steps {v['step_cycle']}({v['step_pre']},{v['step_post']}) (no sweeps first "
-            f"where the prediction is close), {coarsening} coarsening"
+            f", time steps {v['step_cycle']}({v['step_pre']},{v['step_post']}) (no pre-sweeps "
+            f"where the extrapolation is accurate), {coarsening} coarsening"
         )
         if v["coarsening_may_change"]:
             text += ", Alcouffe when a cycle is slow"

@@ -53,7 +53,7 @@ REASONS = {
     22: "the contribution of the omitted waves is not predicted (only for moving surfaces)",
     23: "{no_prediction}",
     24: "the bodies end under load: the pressure there is infinite in theory, and on a grid "
-    "depends on its last cell (cell_at_end); a profile that drops more takes the load off the ends",
+    "depends on its last cell (cell_at_end); a profile with a larger drop unloads the ends",
     31: WITH_HEAT,
     32: "isothermal: lubricant.thermal_friction is 'never'",
     33: "isothermal: the viscosity by temperature is not known "

@@ -116,7 +116,7 @@ def _head(results: Sequence[Result], level: Level) -> list[str]:
     return [
         f"{count['pass']} of {judged} pieces are within all their tolerances.{more} "
         f"Level: {level.name}; it leaves out: {level.leaves_out}.",
-        "Every number of ours comes from runs in the folder `studies`, a table and a journal for "
+        "All computed numbers come from runs in the folder `studies`, a table and a journal for "
         "each. Ratios mu_r/mu_s are those of a Newtonian lubricant; shear thinning at real sliding "
         "speeds brings them close to 1.",
     ]
@@ -170,4 +170,4 @@ def write_report(
         parts.append(page.bullets(f"{f.title}. {f.text}" for f in findings))
     for r in results:
         parts += _piece(folder, r)
-    return page.write_page(folder / "report.html", "The paper redone", parts, "reproduce")
+    return page.write_page(folder / "report.html", "Reproduction of the paper", parts, "reproduce")

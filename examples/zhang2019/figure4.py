@@ -108,8 +108,8 @@ def show(data: list[Collapsed], references: References, level: Level) -> Result:
             for k in range(c.theta_2.size)
         ]  # fmt: skip
     caption = (
-        "Left over theta_2 with eq. 16 (dotted) and our fit of its form; right over the parameter "
-        "from the response. Above the scheme of the paper, below the narrow one."
+        "Left: over theta_2, with eq. 16 (dotted) and our fit of its form. Right: over the "
+        "parameter from the response. Top: the scheme of the paper. Bottom: the narrow scheme."
     )
     return Result(
         checks,

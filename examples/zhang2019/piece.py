@@ -97,7 +97,7 @@ def read_references() -> dict[str, Reference]:
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """Comparison of a number of ours with one of the paper or of another program."""
+    """Comparison of a computed number with one of the paper or of another program."""
 
     name: str  # the quantity, in words
     value: float  # ours; NaN without a result

@@ -5,9 +5,9 @@ module ehl_reason
    private
    public :: reason_none, reason_no_solution, reason_two_grids, reason_no_limit, reason_small_domain, reason_inlet, &
              reason_coarse_grid, reason_narrow, reason_coarser_none, reason_coarser_inlet, reason_much_mass_defect, &
-             reason_boundary_friction, reason_not_wanted, reason_steps, reason_not_yet, reason_nothing_carried, &
+             reason_boundary_friction, reason_not_requested, reason_steps, reason_not_yet, reason_none_resolved, &
              reason_small_grid, reason_coarser_status, reason_pressures, reason_no_ratio, reason_few_positions, &
-             reason_not_predicted, reason_moving_alone, reason_prediction, reason_end
+             reason_not_predicted, reason_stationary_waves, reason_prediction, reason_end
    public :: friction_with_heat, friction_never, friction_no_slope, friction_no_sliding, friction_newtonian, friction_small, &
              friction_of_rough, friction_no_size, friction_rolling, friction_no_smooth, friction_above_limit, &
              friction_not_converged, friction_wall_at_rest, friction_rolling_line
@@ -27,11 +27,11 @@ module ehl_reason
    !> Missing grid error of the friction ratio, because of the run on the next coarser grid: switched off by time.estimate_error;
    !> time.steps; not finished; that grid resolves none of the roughness; no such grid; different status; pressures that change too
    !> much from grid to grid
-   integer, parameter :: reason_not_wanted = 12, reason_steps = 13, reason_not_yet = 14, reason_nothing_carried = 15, &
+   integer, parameter :: reason_not_requested = 12, reason_steps = 13, reason_not_yet = 14, reason_none_resolved = 15, &
                          reason_small_grid = 16, reason_coarser_status = 17, reason_pressures = 18
    !> Other missing parts of that error: no ratio; a mean over few relative positions of two surfaces; omitted waves that were not
    !> predicted, or cannot be predicted for stationary surfaces, or for a reason of the caller
-   integer, parameter :: reason_no_ratio = 19, reason_few_positions = 20, reason_not_predicted = 21, reason_moving_alone = 22, &
+   integer, parameter :: reason_no_ratio = 19, reason_few_positions = 20, reason_not_predicted = 21, reason_stationary_waves = 22, &
                          reason_prediction = 23
    !> Model of a coefficient of friction: with frictional heating; isothermal as requested, or because the temperature dependence
    !> of the viscosity is not known, there is no sliding, the stress is Newtonian and above the Eyring stress, heating is small,

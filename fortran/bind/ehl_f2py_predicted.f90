@@ -22,7 +22,7 @@ contains
 
       call run_of(handle, run, status)
       if (.not. status%failed()) then
-         run%solver%knows_waves = .true.
+         run%solver%waves_predicted = .true.
          run%solver%predicted_waves = [left_out, unresolved]
       end if
       call reply(status, stat, message)

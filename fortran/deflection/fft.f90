@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Deflection by zero-padded real FFTs: exact to rounding
 !>
-!> The sum over n nodes a side is a circular convolution of length 2(n-1): the offsets -(n-1)
+!> The sum over n nodes per side is a circular convolution of length 2(n-1): the offsets -(n-1)
 !> and n-1 coincide, but the kernel is even, so the result is exact for any P on
 !> the border. The kernel's transform is real. Rows of zeros that pad Y are never transformed in X: rows
 !> 1..ny are transformed to spectra, then a few columns at a time are gathered, padded, transformed along

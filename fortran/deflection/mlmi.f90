@@ -4,7 +4,7 @@
 !>
 !> Where the kernel is smooth, a sum over many small cells can be replaced by one over fewer, larger cells:
 !> anterpolation transfers the sources to the grid of every second node along one axis, then along the
-!> other (mlmi_down.f90), until at most 17 nodes a side are left, where the sum is evaluated directly (sum_directly). The
+!> other (mlmi_down.f90), until at most 17 nodes per side are left, where the sum is evaluated directly (sum_directly). The
 !> deflection is interpolated back to the finer grids and corrected on a patch around each node, where the kernel is not
 !> smooth (mlmi_up.f90). Transfers use 2t points, and grids extend beyond the domain so that transfers keep their order
 !> at the border.
@@ -30,7 +30,7 @@ module ehl_mlmi
    private
    public :: mlmi_deflection_t
 
-   !> Grids are halved until they have no more nodes a side than this
+   !> Grids are halved until they have no more nodes per side than this
    integer, parameter :: max_coarsest = 17
    !> Grids with fewer nodes use one thread
    integer, parameter :: small = 1024

@@ -35,7 +35,7 @@ module ehl_solver
       type(contact_run_t), allocatable, private :: coarse
       type(checkpoint_t), private :: coarse_checkpoint
       !> Whether the caller predicted the parts of mu_ratio due to truncated and unresolved waves; these parts, NaN: not known
-      logical :: knows_waves = .false.
+      logical :: waves_predicted = .false.
       real(dp) :: predicted_waves(2) = 0.0_dp
    contains
       procedure :: start

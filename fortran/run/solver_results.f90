@@ -6,8 +6,8 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_kinds, only: not_known
    use ehl_level_result, only: film_errors, unresolved_spike
    use ehl_outcome, only: outcome_names, outcome_target_missed
-   use ehl_reason, only: reason_coarser_status, reason_few_positions, reason_moving_alone, reason_no_ratio, reason_none, &
-                         reason_not_predicted, reason_not_wanted, reason_not_yet, reason_nothing_carried, reason_prediction, &
+   use ehl_reason, only: reason_coarser_status, reason_few_positions, reason_stationary_waves, reason_no_ratio, reason_none, &
+                         reason_not_predicted, reason_not_requested, reason_not_yet, reason_none_resolved, reason_prediction, &
                          reason_pressures, reason_small_domain, reason_small_grid, reason_steps
    use ehl_report, only: report_friction, report_passage, report_stationary, report_problem, report_transient, report_waves
    use ehl_report_duty, only: report_duty
@@ -180,8 +180,8 @@ contains
       associate (surfaces => self%run%plan%surfaces)
          why = reason_prediction
          waves = self%predicted_waves
-         if (.not. self%knows_waves) then
-            why = merge(reason_moving_alone, reason_not_predicted, surfaces%all_stationary())
+         if (.not. self%waves_predicted) then
+            why = merge(reason_stationary_waves, reason_not_predicted, surfaces%all_stationary())
             waves = merge(not_known, 0.0_dp, surfaces%unresolved > rounding)
          end if
          if (.not. (surfaces%left_out > rounding .and. surfaces%has_spectrum())) waves(1) = 0.0_dp
@@ -198,13 +198,13 @@ contains
          return
       case (outcome_running)
          if (.not. self%input%time%estimate_error) then
-            why = reason_not_wanted
+            why = reason_not_requested
          else if (self%run%plan%surfaces%move() .and. self%run%plan%steps > 0) then
             why = reason_steps
          else if (self%run%plan%coarse_run) then
             why = reason_not_yet
          else
-            why = merge(reason_nothing_carried, reason_small_grid, self%run%plan%levels > 2)
+            why = merge(reason_none_resolved, reason_small_grid, self%run%plan%levels > 2)
          end if
       case default
          why = reason_coarser_status

@@ -72,7 +72,7 @@ contains
                return
             end if
             if (guard%damping == max_damping) return
-            ! otherwise the same degree would be tried repeatedly
+            ! otherwise the same damping would be tried repeatedly
             if (guard%cycles_since == 1 .and. guard%last_damping > 0) guard%min_damping = guard%last_damping
             guard%damping = max(guard%damping + 1, guard%min_damping)
             guard%last_damping = guard%damping

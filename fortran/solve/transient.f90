@@ -64,7 +64,7 @@ contains
       associate (level => hierarchy%levels(transient%n), duty => transient%duty)
          do
             if (duty%active) call transient%begin_duty(hierarchy, surfaces)
-            if (transient%rests()) then
+            if (transient%stays_steady()) then
                outcome = outcome_converged
                transient%cycles = 0
                call transient%count_step(level, status)

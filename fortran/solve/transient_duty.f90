@@ -19,12 +19,12 @@ contains
          self%time_step = self%duty_steps%next(self%duty, self%time, level%grid%hx, surfaces%rough())
          ! while the conditions are those of the case no step is solved: it extends to the next row of the table
          associate (row => self%duty%next_knot(self%time))
-            if (self%duty%rests(row(1))) self%time_step = row(1) - self%time
+            if (self%duty%is_constant(row(1))) self%time_step = row(1) - self%time
          end associate
          self%now = self%duty%at(self%time + self%time_step)
          ratio = self%duty_steps%ratio(self%time_step)
          self%settling = .not. (self%settled .or. self%duty_steps%steps(1) > 0.0_dp .or. &
-                                self%duty%rests(self%time + self%time_step))
+                                self%duty%is_constant(self%time + self%time_step))
          if (self%settling) then
             self%time_step = steady_time*0.5_dp**self%duty_steps%cuts
             self%now = self%duty%at(self%time)
@@ -61,10 +61,10 @@ contains
       call self%duty_error%settle(level%h)
    end procedure settle
 
-   module procedure rests
-      rests = self%duty%active .and. .not. self%settling
-      if (rests) rests = self%duty%rests(self%time + self%time_step)
-   end procedure rests
+   module procedure stays_steady
+      stays_steady = self%duty%active .and. .not. self%settling
+      if (stays_steady) stays_steady = self%duty%is_constant(self%time + self%time_step)
+   end procedure stays_steady
 
    module procedure assess_duty
       integer :: j

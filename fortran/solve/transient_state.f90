@@ -70,7 +70,7 @@ module ehl_transient_state
    contains
       procedure :: begin_duty
       procedure :: end_duty
-      procedure :: rests
+      procedure :: stays_steady
       procedure :: assess_duty
       procedure :: growth
       procedure, private :: accept_duty
@@ -141,10 +141,10 @@ module ehl_transient_state
       end subroutine end_duty
 
       !> Whether the conditions are those of the case until the end of the step, so that the contact remains steady
-      pure module function rests(self)
+      pure module function stays_steady(self)
          class(transient_t), intent(in) :: self
-         logical :: rests
-      end function rests
+         logical :: stays_steady
+      end function stays_steady
 
       !> Ratio of the present half width of the dry contact along X to that of the case
       pure module function growth(self)

@@ -57,10 +57,10 @@ contains
          level%p(i, :) = p(i, :, 1) + 2.0_dp*(-0.02_dp*(i - 1) - 0.25_dp*ripple*(-1)**i) + ripple*(-1)**i
       end do
       call predictor%learn(p(:, :, 1:-1:-1), level)
-      call is_true(minval(predictor%weights(6:29, :, 1)) > 0.95_dp, "the motion was right")
+      call is_true(minval(predictor%weights(6:29, :, 1)) > 0.95_dp, "without Poiseuille flow convection is predicted")
       level%flow%eps = 1.0_dp
       call predictor%learn(p(:, :, 1:-1:-1), level)
-      call is_true(maxval(predictor%weights(6:29, :, 1)) < 0.05_dp, "a ripple in a flow is wrong")
+      call is_true(maxval(predictor%weights(6:29, :, 1)) < 0.05_dp, "with Poiseuille flow the ripple is an error")
       call is_true(.not. status%failed(), "predictor")
    end subroutine predictor_of_stationary_and_moving_patterns
 end module test_predictor

@@ -34,7 +34,7 @@ contains
       call step_restarts()
       call sweeps_alone_do_not_diverge()
       call changes_are_limited()
-      call smooth_part_is_a_whole_mean()
+      call mean_of_changes_is_complete()
       call transfers_when_needed()
    end subroutine run_transient
 
@@ -77,7 +77,7 @@ contains
       do k = 1, 4
          call step(run, status)
       end do
-      call is_close(maxval(abs(run%hierarchy%levels(n)%p - p_next)), 0.0_dp, 0.0_dp, "the failed step left no trace")
+      call is_close(maxval(abs(run%hierarchy%levels(n)%p - p_next)), 0.0_dp, 0.0_dp, "the failed step changes nothing")
       call is_true(.not. status%failed(), "transient run")
    end subroutine failed_step_leaves_the_last_state
 
@@ -108,7 +108,7 @@ contains
          run%transient%p_before(:, j, 3) = run%transient%p_before(:, j, 3)*[(merge(3.5_dp, 1.0_dp, mod(k, 2) == 0), k=1, 65)]
       end do
       call step(run, status)
-      call is_true(run%outcome == outcome_running .and. run%transient%step == 4, "a wrong prediction does no harm")
+      call is_true(run%outcome == outcome_running .and. run%transient%step == 4, "a wrong prediction is corrected")
       call is_true(run%transient%cycles > cycles, "after more cycles")
       call is_close(maxval(abs(run%hierarchy%levels(n)%p - p)), 0.0_dp, 2.0e-5_dp, "to the same pressure")
       call is_true(.not. status%failed(), "transient run")
@@ -172,7 +172,7 @@ contains
 
    !> The mean along X of the raw changes is the same whether it is computed everywhere or only
    !> where it is not zero
-   subroutine smooth_part_is_a_whole_mean()
+   subroutine mean_of_changes_is_complete()
       type(contact_run_t) :: run
       type(status_t) :: status
       real(dp), parameter :: weights(-4:4) = [1.0_dp, 8.0_dp, 28.0_dp, 56.0_dp, 70.0_dp, 56.0_dp, 28.0_dp, 8.0_dp, &
@@ -196,7 +196,7 @@ contains
       call is_true(largest > 0.0_dp, "a smooth change is removed")
       call is_close(difference, 0.0_dp, 1.0e-12_dp*largest, "mean along X")
       call is_true(.not. status%failed(), "transient run")
-   end subroutine smooth_part_is_a_whole_mean
+   end subroutine mean_of_changes_is_complete
 
    !> Operator-dependent transfers need no memory before they are used
    subroutine transfers_when_needed()

@@ -57,7 +57,7 @@ module ehl_duty
    contains
       procedure :: setup
       procedure :: at
-      procedure :: rests
+      procedure :: is_constant
       procedure :: begin
       procedure :: end_time
       procedure :: length
@@ -120,11 +120,11 @@ contains
    end subroutine setup
 
    !> Whether all quantities are those of the case up to and at a time
-   pure logical function rests(self, time)
+   pure logical function is_constant(self, time)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: time
-      rests = .not. self%rough .and. self%constant_until >= 0.0_dp .and. time <= self%constant_until*(1.0_dp + 1.0e-9_dp)
-   end function rests
+      is_constant = .not. self%rough .and. self%constant_until >= 0.0_dp .and. time <= self%constant_until*(1.0_dp + 1.0e-9_dp)
+   end function is_constant
 
    !> Slope of a parabola at the middle of three rows
    elemental real(dp) function parabola(a, b, c, before, after)
@@ -262,7 +262,7 @@ contains
       real(dp) :: time
 
       time = self%begin()
-      if (self%rests(self%constant_until)) time = max(time, self%constant_until)
+      if (self%is_constant(self%constant_until)) time = max(time, self%constant_until)
       steps_expected = (self%end_time() - time)*self%max_speed()/(self%step_factor*mesh)
    end function steps_expected
 

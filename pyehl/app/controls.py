@@ -109,8 +109,8 @@ GROUPS: dict[str, tuple[Control | Choice, ...]] = {
         Control("rms", "rms height σ", "nm", 1e-9, 1.0, 500.0),
         Control("hurst", "Hurst exponent", "", 1.0, 0.1, 1.0, log=False),
         Control("seed", "seed", "", 1.0, 1, 401, log=False, whole=True),
-        Control("map_x", "map along x (0: of file)", "mm", 1e-3, 0, 4, log=False),
-        Control("map_y", "map across (0: of file)", "mm", 1e-3, 0, 4, log=False),
+        Control("map_x", "map along x (0: from file)", "mm", 1e-3, 0, 4, log=False),
+        Control("map_y", "map across (0: from file)", "mm", 1e-3, 0, 4, log=False),
     ),
 }
 CONTROLS = {control.name: control for group in GROUPS.values() for control in group}

@@ -111,7 +111,7 @@ class Page:
             if tried.values["surface"] == "map" and name in ("surface", "map_x", "map_y"):
                 self.uploads.check(tried.file, tried.map_message())
         except InputError as error:
-            self.layout.controls[name].say(self.uploads.nameless(str(error)))
+            self.layout.controls[name].say(self.uploads.without_folders(str(error)))
             return
         self.layout.controls[name].say("")
         self.layout.controls["surface"].say(NO_MAP if missing else "")
@@ -152,7 +152,7 @@ class Page:
             self.pictures.show_rough(answer)
             self._show_rough()
         else:
-            self.layout.failed(self.uploads.nameless(str(answer)))
+            self.layout.failed(self.uploads.without_folders(str(answer)))
         points = answer.points if isinstance(answer, Film) else 0
         stamp = self.layout.stamp.data
         self.layout.stamp.data = {
@@ -166,7 +166,7 @@ class Page:
         """Show the numbers of the rough contact beside those of the smooth one."""
         if self._rough is not None:
             rows = words.rough_rows(self._rough, self._film)
-            self.layout.show_rough([(a, self.uploads.nameless(b)) for a, b in rows])
+            self.layout.show_rough([(a, self.uploads.without_folders(b)) for a, b in rows])
 
     def open_case(self, name: str, data: bytes) -> None:
         """Set the controls by an uploaded case file."""
@@ -176,7 +176,7 @@ class Page:
             self._wish, note = from_case(case, self.uploads.files)
             self.position = self._wish
         except (InputError, UnicodeDecodeError) as error:
-            self.layout.open_error.text = escape(self.uploads.nameless(str(error)))
+            self.layout.open_error.text = escape(self.uploads.without_folders(str(error)))
             return
         self.layout.open_error.text = ""
         self.layout.note.text = escape(note)
@@ -193,7 +193,7 @@ class Page:
             wish.case(COARSE)
         except InputError as error:
             self._pending = name, data
-            self.layout.upload_error.text = escape(self.uploads.nameless(str(error)))
+            self.layout.upload_error.text = escape(self.uploads.without_folders(str(error)))
             return
         self._pending = None
         self.layout.upload_error.text = ""
@@ -252,7 +252,7 @@ class Page:
         why = ""
         if isinstance(answer, Exception):
             text = str(answer) if isinstance(answer, EhlError | OSError) else repr(answer)
-            why = self.uploads.nameless(text)
+            why = self.uploads.without_folders(text)
         else:
             parcel = {"name": [what], "data": [base64.b64encode(answer).decode()]}
             self.layout.parcel.data = parcel
@@ -265,6 +265,6 @@ class Page:
         if self.curves.closed:
             return
         if isinstance(answer, Exception):
-            self.layout.fetched(self.uploads.nameless(str(answer)))
+            self.layout.fetched(self.uploads.without_folders(str(answer)))
         else:
             self.pictures.show_curve(*answer)

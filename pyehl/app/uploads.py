@@ -59,9 +59,9 @@ class Uploads:
         try:
             read_scan(path, **known)
         except (EhlError, OSError) as error:
-            raise InputError(self.nameless(str(error))) from error
+            raise InputError(self.without_folders(str(error))) from error
 
-    def nameless(self, text: str) -> str:
+    def without_folders(self, text: str) -> str:
         """Remove the folders of the files from a text."""
         for place in PLACES:
             text = text.replace(f"{self._folder.name}/{place}/", "")

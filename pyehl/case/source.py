@@ -24,7 +24,7 @@ END, GROUP, ATOM, STRING, OPEN_STRING, EQUALS, COMMA, SLASH = (
     *("equals", "comma", "slash"),
 )
 _ATOM = r"[^ \t\r\n,/=!'\"&;]"
-# Blanks and comments, then a token; a character that can begin no token is a token of its own
+# Blanks and comments, then a token; a character that cannot begin a token is a token itself
 TOKEN = re.compile(
     r"(?>(?:[ \t\r\n]+|![^\n]*)*)"
     rf"(?:(?P<atom>{_ATOM}+)|(?P<equals>=)|(?P<comma>,)|(?P<slash>/)|(?P<group>&{_ATOM}*)"

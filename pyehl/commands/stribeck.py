@@ -128,7 +128,7 @@ def _matching(path: str, measured: Measured, plan: CurvePlan) -> Measured:
     wanted = "mu_ratio" if why else "mu"
     if measured.ordinate != wanted:
         raise InputError(
-            f"{path}: --measured: it holds {measured.ordinate}, the curve {wanted} "
+            f"{path}: --measured: it has {measured.ordinate}, the curve {wanted} "
             f"({why or 'with lubricant.shear_law = newtonian it has mu_ratio'})"
         )
     return measured

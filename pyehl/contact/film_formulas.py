@@ -63,8 +63,8 @@ def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:
     position, layer = _inlet(settings)
     if position > 0.0 and settings["contact"].get("shape") == "line":
         result.append("inlet.position: there is no formula of a starved line")
-    meant = max(position, layer) > 0.0
-    if grid.get("border") == "zero" and float(grid["x_inlet"]) > FLOODED and not meant:
+    starved = max(position, layer) > 0.0
+    if grid.get("border") == "zero" and float(grid["x_inlet"]) > FLOODED and not starved:
         result.append(
             f"grid.x_inlet = {float(grid['x_inlet']):g}: the formulas are for flooded inlets"
         )

@@ -102,7 +102,7 @@ class Spectrum:
         nx, ny = self.shape
         part = self.values * factor
         if nx % 2 == 0:
-            # the shortest wave of an even number of pixels has no phase of its own
+            # the shortest wave of an even number of pixels has no phase
             part[-1] = self.values[-1] * np.real(factor[-1])
             part[-1] *= 0.5 if refinement > 1 else 1.0
         if lines is not None:

@@ -95,7 +95,7 @@ def _columns(where: str, head: Sequence[str]) -> tuple[list[str], list[str]]:
     """Names of keys and of values."""
     for word in head:
         if not word or head.count(word) > 1:
-            raise InputError(f"{where} the name '{word}' is {'there twice' if word else 'empty'}")
+            raise InputError(f"{where} the name '{word}' is {'repeated' if word else 'empty'}")
     known = KEYS
     keys = [word for word in head if "." in word]
     for word in keys:

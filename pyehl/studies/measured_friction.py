@@ -113,7 +113,7 @@ def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
         other = next((sign for sign in ";\t" if len(head) == 1 and sign in head[0]), "")
         hint = f"; with commas between columns, not {other!r}" if other else ""
         raise InputError(
-            f"{where} the columns are {', '.join(head) or 'none'}\nexpected: one of "
+            f"{where} columns: {', '.join(head) or 'none'}\nexpected: one of "
             f"{', '.join(known)}; one of mu, mu_ratio; and error, which may be missing{hint}"
         )
     abscissa, ordinate = abscissae[0], ordinates[0]

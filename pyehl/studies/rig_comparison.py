@@ -54,7 +54,7 @@ def compared(results: Results, rig: RigFile) -> list[Compared]:
     if not result:
         measured = {q.name for q in MEASURED for step in used if q.name in step.columns}
         raise InputError(
-            f"{rig.name}: error: it holds {', '.join(sorted(measured))}; the results have none of "
+            f"{rig.name}: error: it has {', '.join(sorted(measured))}; the results have none of "
             "them\nexpected: a study with films, or with a coefficient of friction"
         )
     return result

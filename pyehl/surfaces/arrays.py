@@ -122,7 +122,7 @@ def check_pixels(
     tiles: int = 1,
     *,
     copies: int = WORKING_COPIES,
-    remedy: str = "a part of the map, in a file of its own",
+    remedy: str = "a part of the map, in a separate file",
 ) -> None:
     """Refuse a surface whose processing needs more than the free memory.
 

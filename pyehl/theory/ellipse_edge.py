@@ -4,8 +4,8 @@
 With x and y over the semi-axes, a pressure sum over m of a_m P_lm(z) cos(m theta)/z of one degree l
 deflects the ellipse into functions of the same degree (Galin 1953; Johnson 1985, Contact Mechanics,
 section 3.3). In Fourier space the ellipse is the disc with a kernel g(phi)/Q, 1/g^2 = cos^2 phi +
-sin^2 phi/kappa^2. The integrals of j_l j_l' over Q vanish unless l = l', so each l has a small
-system of equations of its own, with the harmonics of g. The wavevector enters as Q = (q_x,
+sin^2 phi/kappa^2. The integrals of j_l j_l' over Q vanish unless l = l', so each l has a separate
+small system of equations, with the harmonics of g. The wavevector enters as Q = (q_x,
 kappa q_Y). Lengths are scaled by a, heights by a^2/R_x, pressures by p_h.
 """
 

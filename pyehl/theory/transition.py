@@ -40,7 +40,7 @@ class Curve:
         """Return a column of friction ratios (n,), as coefficients where these are drawn."""
         if not self.absolute:
             return self.column(name)
-        # in contact with frictional heating there is no mu_smooth
+        # with solid contact and frictional heating there is no mu_smooth
         smooth, own = self.column("mu_smooth"), self.column("mu") / self.column("mu_ratio")
         return self.column(name) * np.where(np.isfinite(smooth), smooth, own)
 
@@ -100,8 +100,8 @@ class LiftOff:
         """The transition speed in a line."""
         if not math.isfinite(self.speed):
             return (
-                f"lift-off   not known: {LIFT_OFF:.0%} of the load lies within the error of the "
-                "load share where the curve ends, or where a point has none"
+                f"lift-off   not known: the curve ends within the error of a load share of "
+                f"{LIFT_OFF:.0%}, or a point has no error"
             )
         beside = [
             f", {name} = {value:.3g}"

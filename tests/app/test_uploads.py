@@ -26,7 +26,7 @@ def test_refused_uploads_show_the_message_of_the_reader(tmp_path):
     size = {"length_x": 1e-4, "length_y": 1e-4}
     path = uploads.add("../../ground.npy", heights.read_bytes(), size)
     assert Path(path).name == "ground.npy"
-    assert uploads.nameless(f"in {path}") == "in ground.npy"
+    assert uploads.without_folders(f"in {path}") == "in ground.npy"
     with pytest.raises(InputError, match=r"bad\.npy"):
         uploads.add("bad.npy", b"\x93NUMPY nonsense", size)
     # a bad file does not replace the good one of the same name

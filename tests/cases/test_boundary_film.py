@@ -226,7 +226,7 @@ def test_friction_of_the_layer_is_heat(solve):
         assert half[name] == pytest.approx(0.5 * done[name], rel=0.03)
 
 
-def test_film_beside_contact_is_warmed_by_it(solve):
+def test_solid_contact_heats_the_film_around_it(solve):
     """Friction of the film falls as the friction of the boundary film rises."""
     mixed = HOT | {"lubricant.boundary_film": 5e-7}
     result = [

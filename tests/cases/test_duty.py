@@ -454,7 +454,7 @@ STEADY = {
 
 
 @pytest.mark.parametrize("shape", STEADY)
-def test_steady_contacts_beside_a_duty(shape):
+def test_steady_contacts_of_a_duty(shape):
     """At constant values they equal the contact of the case; under a slow duty its films."""
     contact = {"reduced_modulus": MODULUS, "slide_to_roll": 0.0} | STEADY[shape]
     case = pyehl.Case(contact=contact, lubricant={"viscosity": 0.04}, grid={"points": 65})

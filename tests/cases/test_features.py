@@ -221,7 +221,7 @@ def test_commands(tmp_path: Path, cases: Path, capsys: pytest.CaptureFixture[str
     assert cli.main(["check", dent]) == 0
     plan = capsys.readouterr().out
     assert "a dent passes once" in plan
-    assert "left the contact" in plan
+    assert "in the inlet have left" in plan
     assert cli.main(["surface", dent, "-o", str(tmp_path / "dent.npy")]) == 2
     assert "surface.kind = 'dent' is no tile" in capsys.readouterr().err
     assert cli.main(["predict", dent, "-o", str(tmp_path / "psd")]) == 2

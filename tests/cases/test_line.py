@@ -220,19 +220,19 @@ def test_bodies():
 
 WITH_LINE = {
     "contact.load=100": "contact.load_per_length [N/m]",
-    "contact.moes_m=20": "contact.moes_m_line: M and L of a line are other numbers",
-    "contact.moes_l=20": "contact.moes_l_line: M and L of a line are other numbers",
+    "contact.moes_m=20": "contact.moes_m_line: M and L of a line are defined differently",
+    "contact.moes_l=20": "contact.moes_l_line: M and L of a line are defined differently",
     "contact.radius_y=0.01": "contact.radius alone",
     "contact.radius_ratio=0.1": "contact.radius alone",
     "contact.angle=10": "a line is perpendicular to the motion",
-    "grid.y_extent=2": "the strip is as wide as the surfaces repeat",
-    "grid.points_y=65": "the strip is as wide as the surfaces repeat",
-    "solver.deflection='mlmi'": "a strip that repeats has no multi-integration",
+    "grid.y_extent=2": "the strip is one period of the surfaces wide",
+    "grid.points_y=65": "the strip is one period of the surfaces wide",
+    "solver.deflection='mlmi'": "multi-integration is not available for a periodic strip",
 }
 
 
 @pytest.mark.parametrize(("option", "remedy"), WITH_LINE.items())
-def test_refused_beside_a_line(root, drive, tmp_path, option, remedy):
+def test_keys_refused_with_a_line(root, drive, tmp_path, option, remedy):
     case, key = root / "cases" / "line.nml", option.partition("=")[0]
     for driver in ("ehl", "pyehl"):
         run = drive(driver, case, "-o", "out", "--set", option)
@@ -244,7 +244,7 @@ def test_refused_beside_a_line(root, drive, tmp_path, option, remedy):
 
 
 @pytest.mark.parametrize("key", ["load_per_length", "moes_m_line", "moes_l_line"])
-def test_refused_beside_a_point(root, drive, key):
+def test_keys_refused_with_a_point(root, drive, key):
     case = root / "cases" / "quick.nml"
     for driver in ("ehl", "pyehl"):
         run = drive(driver, case, "-o", "out", "--set", f"contact.{key}=10.0")

@@ -153,7 +153,7 @@ def test_rolling_moment_grows_with_the_domain(root: Path, solve):
         place = {"grid.x_inlet": -0.625 * width, "grid.x_outlet": 0.375 * width}
         done = solve((100.0, 10.0), points, place | {"grid.y_extent": 0.5 * width})
         shares.append(done["rolling_moment"] * 100.0 / 7.5)
-    assert "it is {:.2f}, {:.2f} and {:.2f} times the asymptote".format(*shares) in text
+    assert "moment is {:.2f}, {:.2f} and {:.2f} times the asymptote".format(*shares) in text
     assert 0.9 < shares[2] < 1.0
     assert shares[2] - shares[1] == pytest.approx(shares[1] - shares[0], rel=0.25)
 

@@ -261,7 +261,7 @@ def test_ehl_makes_the_same_bits(tmp_path: Path, ehl: Path):
         assert (tmp_path / "ehl" / name).read_bytes() == (tmp_path / "python" / name).read_bytes()
 
 
-def test_steady_contacts_beside_a_duty():
+def test_steady_contacts_of_a_duty():
     """They have the layer of their instant."""
     data = pyehl.solve(line([0.0, 0.5, 1.0, 12.0], inlet_film=[1.0, 1.0, 0.5, 0.5]))
     result = pyehl.quasi_static(data, [0.0, float(data.history_t_s[-1])])

@@ -306,7 +306,7 @@ def test_hardness_is_left_out():
     elastic, left = (summary_of(t) for t in (text, hard))
     assert left["contact_load_share"] == elastic["contact_load_share"] > 0.0
     assert left["contact_load_share_error"] is left["contact_area_share_error"] is None
-    assert "contact.hardness is left out" in left["contact_load_share_error_note"]
+    assert "contact.hardness is ignored" in left["contact_load_share_error_note"]
 
 
 def test_two_surfaces_have_no_contact_prediction():
@@ -314,7 +314,7 @@ def test_two_surfaces_have_no_contact_prediction():
     second = text[text.index("&surface") :].replace("surface", "second_surface").replace("11", "12")
     summary = summary_of(text + second)
     assert summary["contact_load_share"] is None
-    assert "one rough surface" in summary["contact_load_share_error_note"]
+    assert "single rough surface" in summary["contact_load_share_error_note"]
 
 
 @pytest.mark.parametrize("most", [np.inf, 40.0])
@@ -370,7 +370,7 @@ def test_lift_off_with_its_error():
         lost = lift_off(speeds, pd.DataFrame(unknown))
         assert lost is not None
         assert np.isnan([lost.speed, lost.error, lost.lambda_ratio]).all()
-        assert lost.words.startswith("lift-off   not known: 1% of the load")
+        assert lost.words.startswith("lift-off   not known: the curve ends within the error")
     assert Curve("", "contact.load", pd.DataFrame(rows)).lift_off is None
     assert lift_off(speeds[:2], pd.DataFrame(rows[:2])) is None
 

@@ -103,7 +103,7 @@ def test_no_circular_import(root: Path):
     left = {n: imported(executed(tree), set(result)) - {n} for n, (_, tree) in result.items()}
     while left:
         free = {name for name, others in left.items() if not others & set(left)}
-        assert free, f"a circle among {sorted(left)}"
+        assert free, f"an import cycle among {sorted(left)}"
         left = {name: others for name, others in left.items() if name not in free}
 
 

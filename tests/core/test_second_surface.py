@@ -197,7 +197,7 @@ def test_heights_in_memory(heights, tmp_path: Path, monkeypatch):
     assert {"surface.npy", "second_surface.npy"} <= set(files)
     again = pyehl.solve(tmp_path / "out" / "case.nml", check=False)
     assert np.array_equal(again.RR.values, given.RR.values)
-    # only one
+    # only the second surface is replaced
     alone = Case.from_text(CONTACT + PAIRS["two maps"] + STEPS.format(4))
     other = pyehl.solve(alone, second_surface=heights["one"], check=False)
     assert not np.array_equal(other.RR.values, read.RR.values)

@@ -53,7 +53,7 @@ def test_friction_of_lines_and_ellipses():
     assert np.all((warm.table["mu"] < cold.table["mu"]) | warm.table["mu"].isna())
 
 
-def test_friction_by_formulas_beside_solved_contacts(root: Path):
+def test_friction_by_formulas_agrees_with_solved_contacts(root: Path):
     """Within 3 %: crowned flanks on 129 nodes, whose films are 7 to 14 % thinner."""
     options = {
         "spur_gear.crowning_1": 2e-4,
@@ -114,7 +114,7 @@ def test_rollers_of_a_bearing_are_solved_and_predicted():
     assert (predicted["h_min_rough_m"] < predicted["h_min_m"]).all()
 
 
-def test_rolling_resistance_beside_solved_contacts(root: Path):
+def test_rolling_resistance_agrees_with_solved_contacts(root: Path):
     """Both formulas against a 6204 with a short and a long inlet, as on the page."""
     page = (root / "docs" / "howto" / "bearing.md").read_text()
     case = root / "cases" / "ball_bearing.nml"
@@ -139,8 +139,8 @@ def test_rolling_resistance_beside_solved_contacts(root: Path):
     assert [below for _, below in shares] == pytest.approx([0.11, 0.30], abs=0.006)
 
 
-def test_trial_of_a_gear_pair():
-    """302 N m, FVA 3 at 60 degC; assumed crowns gave 229 to 356 nm and 0.036 to 0.043."""
+def test_films_of_a_loaded_gear_pair():
+    """302 N m, FVA 3 at 60 degC: crowned flanks have 229 to 356 nm and 0.036 to 0.043."""
     result = gear(FZG, OIL, {"spur_gear.torque": 302.0})
     films = result.table["h_c_m"] * 1e9
     assert films.min() > 229.0

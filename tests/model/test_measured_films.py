@@ -21,7 +21,7 @@ def home(root: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def made(home: Path) -> dict[str, Any]:
-    """Names of make.py."""
+    """Definitions of make.py."""
     return runpy.run_path(str(home / "make.py"))
 
 

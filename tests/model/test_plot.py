@@ -370,7 +370,7 @@ def test_roughness_shares_one_scale(settings):
     ],
 )
 @pytest.mark.long
-def test_writing_in_the_pictures_of_a_prediction_is_whole(settings, rms, length, reduction):
+def test_labels_in_pictures_of_a_prediction_are_inside(settings, rms, length, reduction):
     """Every panel with its labels is inside the picture, and no panels overlap."""
     settings["surface"] |= {"rms_height": rms, "length_x": length, "length_y": length, "pixels": 64}
     settings["psd"] |= {"reduction": reduction}

@@ -142,7 +142,7 @@ def rows_of(path: Path) -> list[dict[str, float]]:
 
 
 def test_response_of_ellipses_fits_measured_waves(root: Path):
-    """The circle with the same inlet fits as well as on circles; other circles do not."""
+    """The response of the circle with the same inlet fits; those of other circles do not."""
     rows = rows_of(root / "docs" / "evidence" / "ellipse" / "response.csv")
     groups: dict[tuple[float, ...], list[dict[str, float]]] = {}
     for row in rows:

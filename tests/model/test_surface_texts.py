@@ -485,7 +485,7 @@ def test_places_with_too_few_digits_are_no_heights(tmp_path: Path):
         read_scan(path, 1e-5, 1e-5, height_unit="um")
 
 
-def test_places_in_mm_beside_heights_in_m_are_asked_for(tmp_path: Path):
+def test_units_of_positions_and_heights_are_required(tmp_path: Path):
     """One unit for all three would make a map of 3 mm from one of 3 um."""
     rng = np.random.default_rng(70)
     lines = [

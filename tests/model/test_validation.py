@@ -12,7 +12,7 @@ from document_text import plain
 
 @pytest.fixture(scope="module")
 def made(root: Path) -> dict[str, Any]:
-    """Names of make.py."""
+    """Definitions of make.py."""
     return runpy.run_path(str(root / "docs" / "evidence" / "validation" / "make.py"))
 
 

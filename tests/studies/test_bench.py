@@ -105,7 +105,7 @@ def test_skips_of_smooth_contacts():
 
 
 @pytest.mark.long
-def test_smooth_cases_beside_the_circle(monkeypatch):
+def test_smooth_cases_relative_to_the_circle(monkeypatch):
     """Rows of a law and of an ellipse with the same equations; time per node over the circle's."""
     # the line of the benchmark has as many nodes as the circle
     monkeypatch.setattr(smooth, "RADIUS_RATIO", 0.1)
@@ -461,7 +461,7 @@ def test_cheapest_setting():
 
 
 @pytest.mark.long
-def test_predictions_at_a_boundary_film_beside_solutions(tmp_path: Path, capsys):
+def test_predictions_at_a_boundary_film_agree_with_solutions(tmp_path: Path, capsys):
     """One contact that touches; its numbers are consistent, and its load shares agree."""
     (touching,) = [c for c in mixed.draw(4, 1, (65,)) if 0.7 < c.over < 0.9][:1]
     rows = mixed.compare(touching, simulate=False)

@@ -146,7 +146,7 @@ def test_any_csv(tmp_path: Path):
     [
         (["contact.moes_n,H_c,H_c_rtol", "1,2,3"], "did you mean 'contact.moes_m'"),
         (["H_c,H_d_rtol", "1,2"], "tolerance of no column; did you mean 'H_c'"),
-        (["H_c,H_c", "1,2"], "there twice"),
+        (["H_c,H_c", "1,2"], "is repeated"),
         (["H_c,H_c_rtol"], "there are no rows"),
         (["H_c,H_c_rtol", "1"], "t.csv:2: error: 1 values for 2 columns"),
         (["H_c,H_c_rtol", "x,1"], "t.csv:2: error: H_c = 'x'"),

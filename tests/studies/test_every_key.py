@@ -235,7 +235,7 @@ def test_commands_without_rollers_refuse_them(key: str):
             asked()
 
 
-def test_a_layer_of_oil_is_refused_beside_roughness():
+def test_a_layer_of_oil_is_refused_with_roughness():
     with pytest.raises(pyehl.InputError, match=r"with inlet\.film"):
         pyehl.predict(pyehl.Case.from_text("", SI | ROUGH | {"inlet.film": 1e-7}))
 

@@ -43,7 +43,7 @@ def test_measured_data_over_other_abscissae(tmp_path: Path):
 @pytest.mark.parametrize(
     ("text", "states"),
     [
-        ("", "the columns are none"),
+        ("", "columns: none"),
         ("speed,mu\n1,2\n", "expected: one of u, hersey"),
         ("u,hersey,mu\n1,1,2\n", "expected: one of u, hersey"),
         ("u,mu\n1,high\n", ":2: error: mu = 'high'"),
@@ -68,8 +68,8 @@ def test_measured_data_that_are_refused(tmp_path: Path, text: str, states: str):
 @pytest.mark.parametrize(
     ("law", "text", "states"),
     [
-        ("newtonian", f"{KEY},mu\n1,0.05\n", "it holds mu, the curve mu_ratio (give a lubricant"),
-        ("eyring", f"{KEY},mu_ratio\n1,1.2\n", "it holds mu_ratio, the curve mu"),
+        ("newtonian", f"{KEY},mu\n1,0.05\n", "it has mu, the curve mu_ratio (give a lubricant"),
+        ("eyring", f"{KEY},mu_ratio\n1,1.2\n", "it has mu_ratio, the curve mu"),
         ("eyring", f"{KEY},mu\n0.1,0.05\n9,0.05\n", "2 of 2 values of contact.mean_velocity are"),
         ("eyring", f"{KEY},mu\n1,0.05\n9,0.05\n", "beyond the curve, which goes from 0.5 to 2"),
         ("eyring", "speed,mu\n1,0.05\n", "expected: one of contact.mean_velocity"),
@@ -94,7 +94,7 @@ def test_measured_data_are_refused_before_the_first_case(
 
 
 def test_measured_points_beyond_the_curve_are_counted(cases: Path, tmp_path: Path):
-    """The range of the curve in a number that its points give is known only at its end."""
+    """The range of the Hersey number is known only when all points are computed."""
     (tmp_path / "m.csv").write_text("hersey,mu\n1e-8,0.05\n1.5e-6,0.05\n1e-3,0.05\n")
     words = ("--set", "lubricant.shear_law=eyring", "--set", "surface.kind=smooth", "--set")
     words += ("grid.points=129", "--speed", "0.8,1.6", "--measured", str(tmp_path / "m.csv"))

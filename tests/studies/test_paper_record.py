@@ -14,7 +14,7 @@ from piece import QUICK
 
 @pytest.fixture(scope="module")
 def made(root: Path) -> dict[str, Any]:
-    """Names of make.py."""
+    """Definitions of make.py."""
     return runpy.run_path(str(root / "docs" / "evidence" / "paper" / "make.py"))
 
 

@@ -158,5 +158,5 @@ def test_high_loads_take_a_finer_grid():
 
 @pytest.mark.long
 def test_a_load_beyond_all_grids_is_reported():
-    with pytest.raises(pyehl.EhlError, match=r"on 1025 nodes along X: .*; a lighter load"):
+    with pytest.raises(pyehl.EhlError, match=r"on 1025 nodes along X: .*; reduce the load"):
         smooth_contact(60000.0)

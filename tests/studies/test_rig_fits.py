@@ -140,7 +140,7 @@ def test_record_of_measured_films(root: Path) -> None:
     assert (hot["average film (nm)"] > 200).sum() == 7
 
 
-def test_stribeck_beside_a_rig(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_stribeck_compared_with_a_rig(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Measured 5 % lower, films and friction deviate by 5.3 %; the range is stated."""
     case = Path(__file__).resolve().parents[2] / "cases" / "mtm.nml"
     words = [str(case), "--speed", "0.5:2:3log", "--set", "grid.points=65", "-o"]

@@ -104,13 +104,13 @@ def main() -> None:
             _, h, p = fields(settings, wavelength, heights)
             height = AMPLITUDE * wavelength
             k = float(stiffness(2.0 * np.pi / wavelength)) / point.ellipse.kernel_ratio
-            said = predicted(settings, wavelength)
+            estimate = predicted(settings, wavelength)
             sign, at = 1.0, 0.0
             while at <= REACH * contact[0]:
                 j = int(np.argmin(np.abs(y - at)))
                 t = sign * (film[j] - h[j]) / height
                 gain = sign * (p[j] - pressure[j]) / height / k / (1.0 - t)
-                there = (np.interp(at / contact[0], LINES, values) for values in said)
+                there = (np.interp(at / contact[0], LINES, values) for values in estimate)
                 values = (*contact, wavelength, at / contact[0], t, gain, *there)
                 lines.append([f"{v:.4g}" for v in values])
                 print(*lines[-1], flush=True)

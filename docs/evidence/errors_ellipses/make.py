@@ -134,7 +134,7 @@ def cells(point: tuple[float, float, float]) -> list[Row]:
     rows: list[Row] = []
     for ratio in RATIOS:
         for nodes in (65, 129, 257):
-            # nodes that can be coarsened: the shape of the cells is approximately the wanted one
+            # nodes that can be coarsened: the shape of the cells is approximately the requested one
             across = 2 * round(sides * (nodes - 1) / (4.0 * ratio) / 32.0) * 32
             made = any((r["points"], r["points_y"]) == (nodes, across + 1) for r in rows)
             if made or across < 64 or nodes * across > MOST / 2:
