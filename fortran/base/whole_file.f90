@@ -134,6 +134,6 @@ contains
       end if
       inquire (file=path, size=there, iostat=failed)
       if (failed == 0 .and. there == length) return
-      call status%fail(ehl_file, path // ": cannot write: the disk is full, or a limit of the size of files is reached")
+      call status%fail(ehl_file, path // ": cannot write: the disk is full, or the file size limit is reached")
    end subroutine end_writing
 end module ehl_whole_file

@@ -21,7 +21,7 @@ module ehl_friction_results
    type :: friction_results_t
       !> Coefficients of friction of the contact and of the smooth contact; the same without frictional heating
       real(dp) :: mu(2) = not_known, mu_isothermal(2) = not_known
-      !> Kind of the coefficients, or why they are unknown; whether the film is hotter than the measurements of its viscosity
+      !> Kind of the coefficients, or why they are unknown; whether the film is hotter than the measured range of its viscosity
       integer :: reason = reason_none
       logical :: beyond_measured = .false.
       !> Of the smooth contact: rolling moment [p_h a^3], mean shear rate [1/s], maximum shear stress [Pa]

@@ -75,7 +75,7 @@ class Machine:
         given = [key for key in keys if self.is_given(key)]
         return f"{self.kind}.{given[0]}" if given else self._first()
 
-    def wants(self, *keys: str) -> None:
+    def require(self, *keys: str) -> None:
         """Refuse a machine without some keys, all of which have to be positive."""
         for key in keys:
             if getattr(self.values, key) == 0:

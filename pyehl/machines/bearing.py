@@ -72,7 +72,7 @@ class Bearing:
 def ball_bearing(machine: Machine) -> Bearing:
     """Return the contacts of a ball bearing; InputError names the key that does not fit."""
     v = machine.values
-    machine.wants("ball_diameter", "balls")
+    machine.require("ball_diameter", "balls")
     d, pitch = v.ball_diameter, _pitch(machine, v.ball_diameter, v.balls, "balls")
     speed = _speed(machine)
     grooves = {"inner": v.osculation_inner * d, "outer": v.osculation_outer * d}
@@ -122,7 +122,7 @@ def roller_bearing(machine: Machine) -> Bearing:
     roller, so that both raceways carry the same load Q, and the flange 2 Q sin(roller_angle).
     """
     v = machine.values
-    machine.wants("roller_diameter", "roller_length", "rollers")
+    machine.require("roller_diameter", "roller_length", "rollers")
     d, pitch = v.roller_diameter, _pitch(machine, v.roller_diameter, v.rollers, "rollers")
     speed = _speed(machine)
     outer, half = math.radians(v.contact_angle), math.radians(v.roller_angle)
@@ -163,7 +163,7 @@ def _check_rollers(machine: Machine) -> None:
     """Refuse loads that the rollers cannot carry, and inconsistent angles."""
     v = machine.values
     if v.contact_angle == 0.0:
-        machine.wants("radial_load")
+        machine.require("radial_load")
         for key in ("axial_load", "roller_angle"):
             if getattr(v, key) > 0.0:
                 what = f"cylindrical rollers with {key} = {getattr(v, key):g}"

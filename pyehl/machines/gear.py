@@ -39,7 +39,7 @@ class Mesh:
     base_pitch
         p_b.
     ends
-        Begin A and end E of the path of contact, from the pitch point along the line of action.
+        Start A and end E of the path of contact, from the pitch point along the line of action.
     """
 
     centre_distance: float
@@ -115,7 +115,7 @@ def _inverse_involute(value: float) -> float:
 def mesh_of(machine: Machine) -> Mesh:
     """Return the geometry of a pair; InputError names the key that prevents meshing."""
     v = machine.values
-    machine.wants("teeth_1", "teeth_2", "module", "face_width")
+    machine.require("teeth_1", "teeth_2", "module", "face_width")
     teeth, shifts = (v.teeth_1, v.teeth_2), (v.profile_shift_1, v.profile_shift_2)
     alpha, m = math.radians(v.pressure_angle), v.module
     for i in (1, 2):
@@ -225,7 +225,7 @@ def gear_pair(machine: Machine) -> GearPair:
     """
     v = machine.values
     mesh = mesh_of(machine)
-    machine.wants("torque")
+    machine.require("torque")
     omega = RPM * abs(v.speed)
     if omega == 0.0:
         machine.refuse("speed", "the gears do not turn: there is no film", "speed [1/min]")

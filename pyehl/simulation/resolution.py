@@ -59,8 +59,8 @@ class Resolution:
         if self.matters:
             lines.append(
                 f"warning: more than {TOLERANCE:.0%} of mu_r/mu_s comes from waves with fewer than "
-                f"{NODES} nodes; a finer grid (grid.points) or surface.shortest_wavelength "
-                "resolves what is left"
+                f"{NODES} nodes; use a finer grid (grid.points), or remove these waves "
+                "(surface.shortest_wavelength)"
             )
         return lines
 

@@ -92,10 +92,10 @@ def steps_of(
     """
     over = varied(rig.steps)
     if over is None:
-        raise InputError(f"{rig.name}: error: one condition alone\nexpected: a curve over one")
+        raise InputError(f"{rig.name}: error: no condition varies\nexpected: a curve over one")
     if over.name not in vary:
         raise InputError(
-            f"{rig.name}: error: measured over {over.name}; the results go over "
+            f"{rig.name}: error: measured over {over.name}; the results vary "
             f"{', '.join(vary) or 'nothing'}\nexpected: results of a sweep or curve over it"
         )
     pairs = [(step, _difference(step, here, over)) for step in rig.steps]

@@ -160,7 +160,7 @@ def outside(
 
 
 def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstimate]:
-    """Return all formulas at an operating point, those of its regime first, the best one in front.
+    """Return all formulas at an operating point, the best one of its regime first.
 
     A formula with alpha as a factor is omitted where alpha is 0.
     """
@@ -225,7 +225,7 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
                 "elastic-piezoviscous",
                 in_metres(chittenden(u, g, w)),
                 HAMROCK_DOWSON_RANGE,
-                "range taken as that of Hamrock-Dowson; h_min as far off",
+                "range taken as that of Hamrock-Dowson; h_min as inaccurate",
             )
     add(
         "Brewe-Hamrock-Taylor",
@@ -233,7 +233,7 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
         "rigid-isoviscous",
         in_metres((brewe(u, w, shape.radius_ratio),) * 2),
         BREWE_RANGE,
-        "1 to 3 % below converged solutions at L = 0; at L = 10 and M = 1 2 %, at M = 2 8 %",
+        "1 to 3 % below converged solutions at L = 0; at L = 10, 2 % for M = 1 and 8 % for M = 2",
     )
     if circle:
         add(
@@ -242,7 +242,7 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
             "elastic-isoviscous",
             in_metres((de_vicente(u, w), math.nan)),
             DE_VICENTE_RANGE,
-            "4 to 9 % above converged solutions at L = 0 and U = 8e-12, 1.2 % less a decade of U",
+            "4 to 9 % above converged solutions at L = 0 and U = 8e-12, 1.2 % less per decade of U",
         )
     add(
         "Hamrock-Dowson soft",

@@ -58,7 +58,7 @@ def test_refused_comparisons(
     other.write_text("load (N),film (nm)\n10,100\n20,90\n")
     for words, expected in (
         ([str(warm)], "no step has the conditions of the case"),
-        ([str(other)], "measured over contact.load; the results go over contact.mean_velocity"),
+        ([str(other)], "measured over contact.load; the results vary contact.mean_velocity"),
     ):
         assert main(["compare", str(study), "--measured", *words]) == 2
         assert expected in capsys.readouterr().err
