@@ -29,7 +29,7 @@ def steps() -> Values:
         for row in rows
     }
     (beyond,) = (row for row in rows if float(row["share"]) >= 0.1)
-    assert "waves below a/8 cut" in beyond["case"]
+    assert "without waves shorter than a/8" in beyond["case"]
     laws = [float(row["share"]) for row in rows if "Eyring" in row["case"] or "Carr" in row["case"]]
     assert len(laws) == 4
     return locals()

@@ -69,7 +69,7 @@ def test_tutorial(states, cases: Path):
         f"The roughness adds {percent(100.0 * (ground['mu_ratio'] - 1.0))} to the friction",
         f"minimum film over it is {1e9 * ground['h_min_rough_m']:.0f} nm",
         f"at Λ = {ground['lambda_ratio']:.2f} a real surface",
-        f"and even then Λ is {low * honed['lambda_ratio']:.1f}.",
+        f"but even then Λ is {low * honed['lambda_ratio']:.1f}.",
     )
 
 

@@ -55,7 +55,7 @@ CASES = {
     "(200, 10), wave 1 a, 0.4 H_c": (129, wave(200.0, 10.0, 1.0, 3.25e-2)),
     "(1000, 10), wave 0.25 a, 0.3 H_c, U_rat 1.1": (129, wave(1000.0, 10.0, 0.25, 7.4e-3, 1.1)),
     "fractal surface of Table 1": (129, "&surface kind = 'fractal' /\n"),
-    "fractal, waves below a/8 cut": (
+    "fractal, without waves shorter than a/8": (
         129,
         "&surface kind = 'fractal' shortest_wavelength = 5.2e-5 /\n",
     ),
@@ -72,12 +72,12 @@ CASES = {
         "eyring_stress = 4e6 /\n"
         "&surface kind = 'harmonic' amplitude = 0.06 wavelength = 0.5 velocity_ratio = 1.1 /\n",
     ),
-    "Table 1, Eyring 5 MPa, fractal, waves below a/8 cut": (
+    "Table 1, Eyring 5 MPa, fractal, without waves shorter than a/8": (
         129,
         "&lubricant shear_law = 'eyring' eyring_stress = 5e6 /\n"
         "&surface kind = 'fractal' shortest_wavelength = 5.2e-5 /\n",
     ),
-    "Table 1, Carreau 5 MPa, n = 0.5, fractal, waves below a/8 cut": (
+    "Table 1, Carreau 5 MPa, n = 0.5, fractal, without waves shorter than a/8": (
         129,
         "&lubricant shear_law = 'carreau' carreau_stress = 5e6 carreau_exponent = 0.5 /\n"
         "&surface kind = 'fractal' shortest_wavelength = 5.2e-5 velocity_ratio = 1.1 /\n",

@@ -40,7 +40,7 @@ FACTOR = 10.0
 SPEEDS = "0.25:8:10log"
 SLIPS = (0.02, 0.1, 0.3)
 SURFACES = ("smooth", "table 1", "short waves x 10")
-# The third one has no full film at any of these speeds, thus no friction
+# The third one has no friction with the Newtonian oil: film breakdown, or no prediction
 NAMES = ("smooth", "surface of Table 1", "short waves × 10")
 LAWS = ("eyring", "newtonian")
 COLUMNS = (
