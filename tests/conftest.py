@@ -48,6 +48,14 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     return LoadFileScheduling(config, log)
 
 
+@pytest.fixture(scope="session", autouse=True)
+def workers_wait_for_later_tests() -> None:
+    """Keep the worker processes of a study: to start one takes a second of imports."""
+    from pyehl.studies import pool
+
+    pool.KEPT = 3600
+
+
 @pytest.fixture(scope="session")
 def root() -> Path:
     """The root folder of the repository."""

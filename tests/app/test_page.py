@@ -35,8 +35,11 @@ def rows_of(tab, name: str) -> dict[str, str]:
     return dict(tab.until(shown))
 
 
-def test_numbers_are_those_of_pyehl_run(tab, tmp_path, capsys):
-    """A typed load and a dragged slider: all digits shown are those of ``pyehl run``."""
+def test_numbers_are_those_of_pyehl_run(tab, served, tmp_path, capsys):
+    """A typed load and a dragged slider: all digits shown are those of ``pyehl run``.
+
+    Nothing was loaded from elsewhere.
+    """
     tab.type("load", "250")
     handle = tab.element("slider_velocity", ".noUi-handle")
     before = tab.stamp()[0]
@@ -59,6 +62,10 @@ def test_numbers_are_those_of_pyehl_run(tab, tmp_path, capsys):
         assert f"{formula['h_c_m'] * 1e9:.4g} nm" in rows[formula["name"]]
     assert rows["Moes load M"] == f"{sheet['moes_m']:.4g}"
     assert "Converged on 513 × 513 nodes" in tab.words("status")
+    names = tab.run("return performance.getEntriesByType('resource').map(e => e.name)")
+    assert names
+    assert all(name.startswith(served.address) for name in names)
+    assert not [e for e in tab.driver.get_log("browser") if e["level"] == "SEVERE"]
 
 
 def test_wrong_input_is_reported_at_its_control(tab):
@@ -265,13 +272,6 @@ def test_an_older_answer_never_replaces_a_newer_one(tab, page):
         pyehl.Case.from_text(tab.get("case", "value")).resolve()
     )
     assert rows_of(tab, "numbers")["Moes load M"] == f"{point.moes_m:.4g}"
-
-
-def test_nothing_is_loaded_from_elsewhere(tab, served):
-    names = tab.run("return performance.getEntriesByType('resource').map(e => e.name)")
-    assert names
-    assert all(name.startswith(served.address) for name in names)
-    assert not [e for e in tab.driver.get_log("browser") if e["level"] == "SEVERE"]
 
 
 @pytest.mark.parametrize(

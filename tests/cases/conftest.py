@@ -118,16 +118,25 @@ def solve(
             )
         seconds = time.monotonic() - began
         assert done.returncode in (0, 1), f"{words}: exit status {done.returncode}, {done.stderr}"
-        summary = json.loads((folder / "summary.json").read_text())
-        with (folder / "history.csv").open(newline="") as stream:
-            names, *rows = csv.reader(stream)
-        table = np.array([[float(cell or "nan") for cell in row] for row in rows])
-        columns = table.reshape(len(rows), len(names)).T
-        return Run(
-            folder, done.returncode, seconds, summary, dict(zip(names, columns, strict=True))
-        )
+        return read_run(folder, done.returncode, seconds)
 
     return call
+
+
+def read_run(folder: Path, code: int = 0, seconds: float = 0.0) -> Run:
+    """Read a result folder."""
+    summary = json.loads((folder / "summary.json").read_text())
+    with (folder / "history.csv").open(newline="") as stream:
+        names, *rows = csv.reader(stream)
+    table = np.array([[float(cell or "nan") for cell in row] for row in rows])
+    columns = table.reshape(len(rows), len(names)).T
+    return Run(folder, code, seconds, summary, dict(zip(names, columns, strict=True)))
+
+
+@pytest.fixture(scope="session")
+def run_from() -> Callable[[Path], Run]:
+    """Read a result folder as a run."""
+    return read_run
 
 
 @pytest.fixture(scope="session")

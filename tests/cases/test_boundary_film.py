@@ -302,6 +302,7 @@ def test_mixed_film(solve):
     assert "lubricant.boundary_friction" in unknown["mu_ratio_error_note"]
 
 
+@pytest.mark.long
 def test_single_nodes_that_touch(solve):
     """High waves that touch at a few nodes each."""
     high = {

@@ -171,7 +171,9 @@ def test_rough_contact(solve, velocity):
 
 
 @pytest.mark.parametrize(
-    "radii", [(0.018, 0.018), (0.01, 0.04), (0.04, 0.01)], ids=["circle", "wide", "narrow"]
+    "radii",
+    [(0.018, 0.018), (0.01, 0.04), pytest.param((0.04, 0.01), marks=pytest.mark.long)],
+    ids=["circle", "wide", "narrow"],
 )
 def test_prediction_includes_the_heat(radii: tuple[float, float]):
     """The prediction applies the heat of its smooth contact, on its own grid."""

@@ -59,7 +59,7 @@ def test_same_friction(
     ("point", "kappa", "points"),
     [
         ((200.0, 10.0), 0.6, 65),
-        ((200.0, 10.0), 1.5, 65),
+        pytest.param((200.0, 10.0), 1.5, 65, marks=pytest.mark.long),
         pytest.param((200.0, 10.0), 2.0, 65, marks=pytest.mark.long),
         pytest.param((1000.0, 10.0), 2.0, 65, marks=pytest.mark.long),
         pytest.param((50.0, 5.0), 3.0, 65, marks=pytest.mark.long),

@@ -171,14 +171,18 @@ def test_boundary_film_in_the_middle_of_a_wide_ellipse(film, touching):
     assert np.sqrt(np.mean((p_line - p)[inner] ** 2)) < 0.007
 
 
+DENT = {"surface.kind": "dent", "surface.width": 0.8, "surface.amplitude": 0.05}
+ROLLING = {"contact.slide_to_roll": 0.0, "time.estimate_error": False}
+
+
+@pytest.mark.long
 def test_dent_in_the_middle_of_a_wide_ellipse():
     """Pressure and film change by a dent along its centre line, while it is in the contact."""
-    dent = {"surface.kind": "dent", "surface.width": 0.8, "surface.amplitude": 0.05}
-    rolling = {"contact.slide_to_roll": 0.0, "time.estimate_error": False, "time.steps": 38}
+    rolling = ROLLING | {"time.steps": 38}
     wide, line = wide_and_line()
     changes = []
     for case, spacing in ((wide, 0.0), (line, 0.0), (line, 2.0)):
-        result = pyehl.solve(case, dent, rolling, {"surface.spacing_y": spacing}, check=False)
+        result = pyehl.solve(case, DENT, rolling, {"surface.spacing_y": spacing}, check=False)
         rows = 96 if spacing == 0.0 else 48
         assert case is wide or result.Y.size == rows
         smooth = pyehl.solve(case)
@@ -189,9 +193,13 @@ def test_dent_in_the_middle_of_a_wide_ellipse():
         for change, expected in zip(strip, changes[0], strict=True):
             off = np.sqrt(np.mean((change - expected)[inner] ** 2))
             assert off < 0.005 * np.abs(expected).max()
-    # twice as many dents on the same length have twice the share of friction
+
+
+def test_dents_along_a_line():
+    """Twice as many dents on the same length have twice the share of friction."""
+    _, line = wide_and_line()
     few, many = (
-        float(pyehl.solve(line, dent, {**rolling, "time.steps": 0}, spacing).mu_ratio) - 1.0
+        float(pyehl.solve(line, DENT, ROLLING, spacing).mu_ratio) - 1.0
         for spacing in ({"surface.spacing_y": 4.0}, {"surface.spacing_y": 2.0})
     )
     assert many == pytest.approx(2.0 * few, rel=0.02)

@@ -317,9 +317,10 @@ with Solver(Case(sys.argv[1])) as solver:
 @pytest.mark.parametrize(
     "keys",
     [
-        *(pytest.param(keys, marks=pytest.mark.long) for keys in ("", "track = 1e-3")),
-        "detrend = 'tilt'",
-        "edges = 'window'",
+        *(
+            pytest.param(keys, marks=pytest.mark.long)
+            for keys in ("", "track = 1e-3", "detrend = 'tilt'", "edges = 'window'")
+        ),
         "fill = 'harmonic'",
         "detrend = 'tilt', edges = 'mirror', shortest_wavelength = 1e-4, filter = 'gaussian'",
     ],

@@ -42,7 +42,10 @@ def tile(tmp_path: Path) -> dict[str, Any]:
     "settings",
     [
         WAVE,
-        WAVE | {"surface.velocity_ratio": 0.8, "surface.wavelength_y": 1.0},
+        pytest.param(
+            WAVE | {"surface.velocity_ratio": 0.8, "surface.wavelength_y": 1.0},
+            marks=pytest.mark.long,
+        ),
         pytest.param(WAVE | {"time.scheme": "paper"}, marks=pytest.mark.long),
         pytest.param({"surface.kind": "fractal"}, marks=pytest.mark.long),
         WAVE | WIDE,

@@ -147,7 +147,10 @@ def test_ends_under_load_have_no_error():
     assert math.isfinite(float(ds.H_c_error))
 
 
-@pytest.mark.parametrize(("amplitude", "near_ends"), [(4e-6, False), (1e-6, True)])
+@pytest.mark.parametrize(
+    ("amplitude", "near_ends"),
+    [pytest.param(4e-6, False, marks=pytest.mark.long), (1e-6, True)],
+)
 def test_ends_agree_with_a_longer_domain(tmp_path, amplitude, near_ends):
     """The roller within a domain 1.2 times as long, with an open gap of 0.1 mm beyond its ends.
 

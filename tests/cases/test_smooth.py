@@ -205,7 +205,7 @@ def test_error_estimates(solve):
     [
         ((200.0, 10.0), 1e-2),
         pytest.param((200.0, 10.0), 1e-3, marks=pytest.mark.long),
-        ((1000.0, 10.0), 2e-2),
+        pytest.param((1000.0, 10.0), 2e-2, marks=pytest.mark.long),
         pytest.param((2000.0, 15.0), 5e-3, marks=pytest.mark.long),
     ],
 )

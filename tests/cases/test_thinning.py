@@ -112,11 +112,14 @@ def test_time_steps_of_half_and_whole_domains(solve, keys):
     "keys",
     [
         {"surface.velocity_ratio": 1.05},
-        {
-            "lubricant.shear_law": "eyring",
-            "lubricant.eyring_stress": 4e6,
-            "surface.velocity_ratio": 1.1,
-        },
+        pytest.param(
+            {
+                "lubricant.shear_law": "eyring",
+                "lubricant.eyring_stress": 4e6,
+                "surface.velocity_ratio": 1.1,
+            },
+            marks=pytest.mark.long,
+        ),
     ],
 )
 def test_steps_are_solved_well_below_the_grid_error(solve, keys):

@@ -146,8 +146,15 @@ def test_earlier_fields_are_removed(drive, tmp_path: Path, driver: str):
     assert {path.name for path in tmp_path.iterdir()} == {"case.nml", "out"}
 
 
-@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    ("driver", "number"),
+    [
+        ("ehl", signal.SIGINT),
+        ("pyehl", signal.SIGTERM),
+        pytest.param("ehl", signal.SIGTERM, marks=pytest.mark.long),
+        pytest.param("pyehl", signal.SIGINT, marks=pytest.mark.long),
+    ],
+)
 def test_interrupt_keeps_the_present_state(drivers, tmp_path: Path, driver: str, number: int):
     (tmp_path / "case.nml").write_text("&contact moes_m = 200.0 /\n&grid points = 1025 /\n")
     options = ["--set", "solver.accuracy=1e-6", "--set", "solver.max_cycles=1000"]

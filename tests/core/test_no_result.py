@@ -118,17 +118,26 @@ def test_messages_of_other_statuses(options: list[str], stop: int | None, status
     ("contact", "viscosity", "rows"),
     [
         (
+            "length = 5.2e-3 radius = 9.581e-3 load = 3036.0 mean_velocity = 3.13 "
+            "profile = 'chamfer' chamfer_length = 5.69e-4 chamfer_drop = 1.666e-5 "
+            "misalignment = 5.568e-4",
+            0.0116,
+            (289, 577),
+        ),
+        pytest.param(
             "length = 9.644e-3 radius = 4.803e-3 load = 5654.0 mean_velocity = 3.13 "
             "profile = 'logarithmic' log_amplitude = 2.584e-6",
             0.0116,
             (769, 1537),
+            marks=pytest.mark.long,
         ),
-        (
+        pytest.param(
             "length = 0.0104 radius = 9.581e-3 load = 6073.0 mean_velocity = 0.4115 "
             "profile = 'chamfer' chamfer_length = 1.138e-3 chamfer_drop = 1.666e-5 "
             "misalignment = 2.784e-4",
             0.009753,
             (577, 1153),
+            marks=pytest.mark.long,
         ),
     ],
 )
@@ -154,6 +163,19 @@ def test_roller_names_a_profile_with_a_solution(
         text = re.sub(r"profile = .*(?= misalignment)", "", text)
     with Solver(Case.from_text(text, options)) as solver:
         assert solver.run()
+
+
+def test_roller_names_the_amplitude_of_its_profile():
+    text = (
+        "&contact shape = 'roller' length = 4.822e-3 radius = 4.803e-3 load = 2827.0 "
+        "mean_velocity = 3.13 profile = 'logarithmic' log_amplitude = 2.584e-6 /\n"
+        "&lubricant viscosity = 0.0116 /\n&grid points = 129 /\n"
+    )
+    assert end(text)["message"] == (
+        "the smooth contact on 129 x 193 nodes has no positive film: give a profile that drops "
+        "more (contact.log_amplitude = 5.2E-06), or shorter cells along the roller "
+        "(grid.points_y = 385)"
+    )
 
 
 def test_a_converged_result_has_no_message():

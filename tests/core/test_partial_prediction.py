@@ -266,7 +266,10 @@ TABLE1 = {
             *(0.3, 2e-8, "waves are too short", "full film; the bodies touch at the boundary film"),
             marks=pytest.mark.long,
         ),
-        (0.6, 2.5e-8, "waves are too short", "the bodies touch at the boundary film"),
+        pytest.param(
+            *(0.6, 2.5e-8, "waves are too short", "the bodies touch at the boundary film"),
+            marks=pytest.mark.long,
+        ),
         pytest.param(
             *(0.12, 4e-9, "outside the range of the response by moes_m", NOTHING),
             marks=pytest.mark.long,

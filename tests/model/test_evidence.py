@@ -46,9 +46,13 @@ def table(evidence):
 
 
 NAMES = ["c16s11", "c8s12", "t1s21", "t1s21u1", "m700l7", "c16m2000", "u080c16", "u120c16"]
+# of which another one has the surface, the conditions or the slip
+LONG = ("c16s11", "t1s21", "u120c16")
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=pytest.mark.long if n in LONG else ()) for n in NAMES]
+)
 def test_table_is_what_is_predicted(evidence, table, name):
     compare, _ = evidence
     (row,) = (row for row in compare.rows() if row["name"] == name)

@@ -142,13 +142,13 @@ def test_a_law_without_thinning_changes_nothing(zone: Zone):
     ("moes", "count", "largest"),
     [
         ((100.0, 3.0), 4, 0.081),
-        ((100.0, 20.0), 2, 0.064),
+        pytest.param(*((100.0, 20.0), 2, 0.064), marks=pytest.mark.long),
         pytest.param(*((200.0, 10.0), 4, 0.038), marks=pytest.mark.long),
         pytest.param(*((300.0, 12.0), 4, 0.033), marks=pytest.mark.long),
         pytest.param(*((500.0, 5.0), 4, 0.05), marks=pytest.mark.long),
         pytest.param(*((1000.0, 10.0), 4, 0.031), marks=pytest.mark.long),
         pytest.param(*((2000.0, 15.0), 4, 0.057), marks=pytest.mark.long),
-        ((3000.0, 3.0), 2, 0.058),
+        pytest.param(*((3000.0, 3.0), 2, 0.058), marks=pytest.mark.long),
         ((3000.0, 20.0), 2, 0.113),
     ],
 )

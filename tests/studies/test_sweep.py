@@ -228,6 +228,7 @@ def test_a_message_for_each_case_without_a_result(cases: Path, tmp_path: Path):
     assert data.status.values.tolist() == ["cycle limit", "converged"]
 
 
+@pytest.mark.long
 def test_a_failed_case_has_a_message(cases: Path, tmp_path: Path):
     """Without the class name of its error."""
     words = ("--run", "predict", "--vary", "contact.mean_velocity=0.002")
