@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import starved_newton
-from test_duty import BOTH_SIDES, LINE, LOAD, RADIUS, SPEED, UNIT, WIDTH, L, M
+from test_duty import LINE, LOAD, RADIUS, SPEED, UNIT, WIDTH, L, M
+from test_duty_steps import BOTH_SIDES
 
 import pyehl
 

@@ -5,6 +5,7 @@ import copy
 
 import numpy as np
 import pytest
+from matplotlib import pyplot
 
 import pyehl
 from pyehl import surfaces
@@ -45,3 +46,10 @@ def wave():
         return surfaces.Topography(z, (wavelength, wavelength))
 
     return make
+
+
+@pytest.fixture
+def no_open_figures():
+    """Close all figures after a test."""
+    yield
+    pyplot.close("all")
