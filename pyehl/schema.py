@@ -205,7 +205,7 @@ sp | flash_temperature_K | K | maximum flash temperature rise (Tian & Kennedy), 
 sp | shear_rate_mean_per_s | 1/s | mean shear rate
 sp | shear_stress_max_Pa | Pa | maximum shear stress
 s | rolling_moment | p_h a^3 | iint H/2 dP/dX of the smooth contact, which resists the rolling
-s | rolling_moment_N_m | N m | iint h/2 dp/dx of the smooth contact, which resists the rolling
+s | rolling_moment_N_m | N m | R iint h/2 dp/dx of the smooth contact, which resists the rolling
 s | rolling_moment_N | N | rolling moment of a line contact, per length
 spt | shear_law | | law of the shear stress
 sp | slide_to_roll | - | (u1 - u2)/u

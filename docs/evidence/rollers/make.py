@@ -78,11 +78,11 @@ def table() -> list[str]:
         n = {name: float(value or "nan") for name, value in row.items() if name[-1] in "maYhd"}
         films = [n["h_c_m"] * 1e9, n["h_min_m"] * 1e9]
         error = n["h_min_error_m"] * 1e9
-        known = f" ± {error:.0f}" if math.isfinite(error) else " (error not known)"
+        known = f" ± {error:.0f} nm" if math.isfinite(error) else " nm (error not known)"
         places = [n[name] / n["length"] for name in ("H_min_Y", "P_max_Y")]
         end = "" if math.isfinite(error) else ", increases with finer cells"
         lines.append(
-            f"| {row['profile']} | {angle} | {films[0]:.0f} nm | {films[1]:.0f}{known} nm, "
+            f"| {row['profile']} | {angle} | {films[0]:.0f} nm | {films[1]:.0f}{known}, "
             f"{places[0]:+.2f} | {n['p_max_Pa'] * 1e-9:.2f} GPa, {places[1]:+.2f}{end} |"
         )
     return [line.replace("-0.00", "0.00").replace("+0.00", "0.00") for line in lines]
