@@ -100,7 +100,7 @@ program ehl
    if (solver%converged()) call terminal%checkpoints%close()
    call terminal%checkpoints%release()
    if (solver%converged()) stop merge(exit_failed, exit_ok, terminal%failed), quiet=.true.
-   ! suggest to resume unless the run would end in the same way
+   ! suggest resuming unless the run would end in the same way
    if (terminal%checkpoints%has_state() .and. any(solver%outcome() == [outcome_interrupted, outcome_failed, outcome_unsettled, &
                                                                        outcome_cycle_limit])) then
       note = "to resume"

@@ -12,8 +12,8 @@ module ehl_checksummed_file
    !> Number of bytes read at a time, and bytes of a checksum
    integer, parameter :: block = 65536, of_checksum = 8
    !> Initial value of the checksum, and number of bits by which each byte rotates it
-   integer(int64), parameter :: nothing = 1234567890123456789_int64
-   integer, parameter :: turn = 7
+   integer(int64), parameter :: initial_value = 1234567890123456789_int64
+   integer, parameter :: rotation = 7
 
 contains
 
@@ -40,7 +40,7 @@ contains
       type(status_t), intent(inout) :: status
       character(len=256) :: why
       integer(int64) :: bytes, ours
-      integer :: again, sealing
+      integer :: again, appending
 
       inquire (unit=lun, pos=bytes)
       bytes = bytes - 1
@@ -48,9 +48,9 @@ contains
       if (status%failed()) return
       ours = checksum(path, bytes)
       open (newunit=again, file=path, status="old", action="write", position="append", access="stream", &
-            form="unformatted", iostat=sealing, iomsg=why)
-      if (sealing == 0) write (again, iostat=sealing, iomsg=why) ours
-      call end_writing(again, path, bytes + of_checksum, sealing, why, status)
+            form="unformatted", iostat=appending, iomsg=why)
+      if (appending == 0) write (again, iostat=appending, iomsg=why) ours
+      call end_writing(again, path, bytes + of_checksum, appending, why, status)
       if (status%failed()) return
       if (.not. flush_file(path)) call status%fail(ehl_file, path//": cannot write: it cannot be flushed to the disk")
    end subroutine end_checksummed
@@ -92,7 +92,7 @@ contains
       integer(int64) :: left
       integer :: lun, stat, n, k
 
-      checksum = nothing
+      checksum = initial_value
       open (newunit=lun, file=path, status="old", action="read", access="stream", form="unformatted", iostat=stat)
       left = bytes
       if (stat /= 0) return
@@ -101,7 +101,7 @@ contains
          read (lun, iostat=stat) piece(:n)
          if (stat /= 0) exit
          do k = 1, n
-            checksum = ieor(ishftc(checksum, turn), int(piece(k), int64))
+            checksum = ieor(ishftc(checksum, rotation), int(piece(k), int64))
          end do
          left = left - n
       end do

@@ -212,8 +212,8 @@ contains
       end subroutine refuse
    end subroutine inspect
 
-   !> Exchange the earlier result and the new one, and move other files over. A symbolic link represents each of them until
-   !> it is moved.
+   !> Exchange the earlier result and the new one, and move the other files to the new one. A symbolic link represents each of them
+   !> until it is moved.
    logical function replaced(found, fresh)
       type(found_t), intent(in) :: found
       character(len=*), intent(in) :: fresh

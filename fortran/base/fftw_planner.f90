@@ -18,7 +18,7 @@ module ehl_fftw_planner
 
 contains
 
-   !> Reserve the planner for this thread; after a failure the caller must not plan either
+   !> Reserve the planner for this thread; after a failure the caller must not create a plan
    subroutine lock_planner(status)
       type(status_t), intent(inout) :: status
       call lock(planner, status)
@@ -119,8 +119,8 @@ contains
       end do
    end subroutine to_spectrum
 
-   !> Cosine transform (DCT-II) of values (n1, n2), divided by 4 n1 n2: amplitudes of the waves of the values with their
-   !> mirror images, (2 n1, 2 n2), about half a pixel before the first. Needs no memory except that of the result.
+   !> Cosine transform (DCT-II) of values (n1, n2), divided by 4 n1 n2: amplitudes of the waves of a (2 n1, 2 n2) tile, the values
+   !> mirrored half a pixel before the first one along both axes. Needs no memory except that of the result.
    subroutine to_cosines(values, cosines, status)
       real(dp), intent(in) :: values(:, :)
       real(dp), allocatable, target, intent(out) :: cosines(:, :)

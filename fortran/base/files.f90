@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Files and folders by POSIX calls, which standard Fortran lacks
+!> POSIX calls for files and folders, which standard Fortran lacks
 module ehl_files
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
@@ -185,7 +185,7 @@ contains
       remove_file = posix_unlink(c_text(path)) == 0
    end function remove_file
 
-   !> Rename a file or folder in one step. A folder replaces another only if that is empty.
+   !> Rename a file or folder in one step. A folder replaces another one only if the latter is empty.
    logical function rename_path(from, to)
       character(len=*), intent(in) :: from, to
 

@@ -49,6 +49,6 @@ contains
    subroutine check(code, status)
       integer(c_int), intent(in) :: code
       type(status_t), intent(inout) :: status
-      if (code /= 0) call status%fail(ehl_internal, "a lock between threads failed: error "//to_text(int(code))//" of the system")
+      if (code /= 0) call status%fail(ehl_internal, "locking between threads failed: system error "//to_text(int(code)))
    end subroutine check
 end module ehl_lock

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Free memory, and the check of a memory requirement, for both drivers
+!> Free memory, and the check of a memory requirement, for `ehl` and the Python package
 module ehl_memory
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp

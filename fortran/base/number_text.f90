@@ -70,7 +70,7 @@ contains
       if (text(1:1) == "*") write (text, "(es12.5)") x
       text = adjustl(text)
       read (text, *, iostat=stat) shown
-      ! descriptors with three or more decimals promise three digits
+      ! a descriptor with three or more decimals must show three significant digits, others two
       most = merge(0.005_dp, 0.05_dp, form(1:1) == "f" .and. scan(form, "3456789", back=.true.) == len(form))
       if (stat == 0 .and. abs(shown - x) > most*abs(x)) then
          if (abs(x) < 1.0e-3_dp) then

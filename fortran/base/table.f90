@@ -140,7 +140,7 @@ contains
    end function entry_of
 
    !> Write a heading and one line per row. A column of whole numbers is written without a
-   !> point; values that are not finite are left empty.
+   !> decimal point; values that are not finite are left empty.
    subroutine write_csv(self, path, status)
       class(table_t), intent(in) :: self
       character(len=*), intent(in) :: path

@@ -40,7 +40,8 @@ contains
       call reply(status, stat, message)
    end subroutine properties
 
-   !> n sets of flow factors: phi_x, phi_y, and for phi_x d ln(phi)/d ln(B), d ln(phi)/d ln(S) and d(phi S)/dS; NaN if not found
+   !> n sets of flow factors: phi_x, phi_y, and for phi_x d ln(phi)/d ln(B), d ln(phi)/d ln(S) and d(phi S)/dS; NaN where the
+   !> iteration does not converge
    subroutine flow_factors(n, law, exponent, b, gradient, found)
       integer(c_int), intent(in) :: n, law
       real(c_double), intent(in) :: exponent
@@ -55,7 +56,8 @@ contains
       end do
    end subroutine flow_factors
 
-   !> Stresses of sliding films without a pressure gradient over that of the law; NaN if not found
+   !> Shear stresses in sliding without a pressure gradient, over the stress of the law (Eyring or Carreau stress); NaN where the
+   !> iteration does not converge
    subroutine sliding_stresses(n, law, exponent, b, stress)
       integer(c_int), intent(in) :: n, law
       real(c_double), intent(in) :: exponent

@@ -24,7 +24,7 @@ module ehl_handles
    !> An entry of the table
    type :: slot_t
       type(run_t), pointer :: run => null()
-      !> Number of handles given for this entry; no handle is used twice
+      !> Number of handles issued for this entry; no handle is used twice
       integer :: generation = 0
    end type slot_t
 
@@ -34,7 +34,7 @@ module ehl_handles
 
 contains
 
-   !> Make a run in a free entry
+   !> Create a run in a free entry
    subroutine new_handle(handle, run, status)
       integer, intent(out) :: handle
       type(run_t), pointer, intent(out) :: run

@@ -65,7 +65,7 @@ contains
       thermal_expansion => v%thermal_expansion; thermal_reduction => v%thermal_reduction
       temperature_viscosity => v%temperature_viscosity; thermal_conductivity => v%thermal_conductivity
       thermal_friction => v%thermal_friction
-      ! largest number of values in a text of this length
+      ! maximum number of values in a text of this length
       associate (n => len(text)/2)
          allocate (table_temperature(n), table_pressure(n), table_viscosity(n), source=huge(1.0_dp))
       end associate

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Creates a contact from its bodies. No other module names a shape.
+!> Creates a contact from its bodies. Outside this folder no other module refers to a type of contact.
 module ehl_contact_factory
    use ehl_contact, only: contact_t
    use ehl_elliptical, only: new_elliptical

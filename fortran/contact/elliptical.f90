@@ -1,9 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The elliptical contact of bodies with two radii (Hertz 1881; Johnson 1985, section 4.2)
 !>
-!> Lengths are scaled by the semi-axis a, which lies along the motion or at an angle to it; the other
-!> semi-axis is kappa a. The potential of the Hertz pressure on this ellipse
-!> is iint P/r = l - c_x X^2 - c_y Y^2 inside it, with
+!> Lengths are scaled by the semi-axis a, which lies along the motion or at an angle to it; the other semi-axis is kappa a. The
+!> potential of the Hertz pressure on this ellipse is iint P/r = l - c_x X^2 - c_y Y^2 inside it, with
 !>
 !>    c_x = pi kappa/3 R_D(0, kappa^2, 1),  c_y = pi kappa/3 R_D(0, 1, kappa^2),  l = pi kappa R_F(0, 1, kappa^2),
 !>
@@ -58,7 +57,7 @@ contains
       real(dp) :: low, high, middle
       integer :: k
 
-      ! kappa is D^(-2/3) within a factor of 4 for all D that the case allows
+      ! kappa is D^(-2/3) within a factor of 4 for all D allowed in a case
       middle = -2.0_dp/3.0_dp*log(radius_ratio)
       low = middle - log(4.0_dp)
       high = middle + log(4.0_dp)

@@ -9,8 +9,8 @@ module ehl_grid_error
    public :: relative_errors, single_grid_errors
 
    !> A-priori error of H_c due to the second-order wedge term: the smaller of 0.16 M h^2 (fitted to grids of 65^2 to 513^2 for
-   !> 20 <= M <= 1000, 10 <= L <= 15) and, for thick films of length s = (2 H_c)^(1/2), 0.85 (1 + (M/5)^2) (h/s)^2 (measured on
-   !> 33^2 to 513^2 for 0.05 <= M <= 20 over (h/s)^2: 0.61 to 0.68 up to M = 1, 1.07 at M = 5, 2.9 at M = 20)
+   !> 20 <= M <= 1000, 10 <= L <= 15) and, for thick films with the length scale s = (2 H_c)^(1/2), 0.85 (1 + (M/5)^2) (h/s)^2
+   !> (measured on 33^2 to 513^2 for 0.05 <= M <= 20 over (h/s)^2: 0.61 to 0.68 up to M = 1, 1.07 at M = 5, 2.9 at M = 20)
    real(dp), parameter :: by_contact = 0.16_dp, by_film = 0.85_dp, thick_m = 5.0_dp
    !> Errors of H_c and H_min in narrow contacts over those in round ones: 1 + a (1/kappa^2 - 1)
    !> and b/kappa^2 (docs/evidence/errors_ellipses)

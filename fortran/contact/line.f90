@@ -1,9 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The infinite line contact: a cylinder on a flat (Hertz 1882; Johnson 1985, section 4.2 c), all values per length.
+!> The infinite line contact: a cylinder on a flat (Hertz 1882; Johnson 1985, section 4.2 c). Loads and
+!> areas are per unit length.
 !>
-!> Lengths are scaled by the half width b = sqrt(8 w R/(pi E')), w the load per length; p_h = 2 w/(pi b). The deflection is
-!> -(1/pi) int P ln|X - X'| dX', the mean over Y of k_b iint P/r with k_b = 1/(2 pi), and H00 is relative to its zero at
-!> |X - X'| = 1. M and L are those of a line contact (Moes 2000), defined differently from those of a point contact:
+!> Lengths are scaled by the half width b = sqrt(8 w R/(pi E')), w the load per unit length; p_h = 2 w/(pi b). The deflection is
+!> -(1/pi) int P ln|X - X'| dX', the mean over Y of k_b iint P/r with k_b = 1/(2 pi). A line contact has no
+!> absolute deflection: H00 belongs to a kernel that is zero at |X - X'| = 1. M and L are those of a line contact (Moes 2000),
+!> defined differently from those of a point contact:
 !>
 !>    M = w/(E' R) (2U)^(-1/2),  L = G (2U)^(1/4),  alpha_bar = L sqrt(M/(2 pi)),  lambda_bar = 3 pi^2/(8 M^2)
 module ehl_line
@@ -38,11 +40,11 @@ contains
       contact%radius_ratio = 0.0_dp
       contact%load = 0.5_dp*pi
       contact%kernel_factor = 0.5_dp/pi
-      ! the deflection in the middle of sqrt(1 - X^2) is (1 + 2 ln 2)/4
+      ! the pressure sqrt(1 - X^2) causes the deflection (1 + 2 ln 2)/4 at X = 0
       contact%dry_separation = -0.25_dp - 0.5_dp*log(2.0_dp)
    end function new_line_contact
 
-   !> b, b^2/R and p_h from the load per length [N/m]
+   !> b, b^2/R and p_h from the load per unit length [N/m]
    pure function scales(self, load, radius, reduced_modulus)
       class(line_t), intent(in) :: self
       real(dp), intent(in) :: load, radius, reduced_modulus
@@ -55,7 +57,7 @@ contains
       scales%film = scales%length**2/radius
    end function scales
 
-   !> M from the load per length [N/m]
+   !> M from the load per unit length [N/m]
    pure real(dp) function moes_load(self, load, radius, reduced_modulus, speed)
       class(line_t), intent(in) :: self
       real(dp), intent(in) :: load, radius, reduced_modulus, speed
@@ -100,7 +102,7 @@ contains
       film_formula = film_formula**(1.0_dp/s)*pi/(8.0_dp*moes_m)
    end function film_formula
 
-   !> Area of the dry contact, 2 b per length
+   !> Area of the dry contact per unit length: its width 2 b
    pure real(dp) function area(self)
       class(line_t), intent(in) :: self
 
@@ -109,7 +111,7 @@ contains
       area = 2.0_dp
    end function area
 
-   !> Area over which the mean of the Hertz pressure is 2/3 of its maximum, as on a circle
+   !> Area per unit length over which the mean of the Hertz pressure is 2/3 of its maximum, as in a circular contact
    pure real(dp) function flash_area(self, length)
       class(line_t), intent(in) :: self
       real(dp), intent(in) :: length

@@ -8,11 +8,11 @@ module ehl_line_domain
    private
    public :: line_ends, line_domain_error
 
-   !> Inlet and outlet in half widths, or in lengths s = (2 H_c)^(1/2) of the film, whichever is larger. X = 0 is a node of every
-   !> grid of 4 n + 1 nodes.
+   !> Inlet and outlet in half widths, or in length scales s = (2 H_c)^(1/2) of the film, whichever are larger. X = 0 is a node of
+   !> every grid of 4 n + 1 nodes.
    real(dp), parameter :: inlet = -4.5_dp, outlet = 1.5_dp
-   !> Error of H_c due to an inlet at X with P = 0: by the missing pressure there, 4 lambda_bar/(3 |X|^3) far from the contact and
-   !> more close to it, and by the load beyond it; and the error with a flooded border
+   !> Coefficients of the error of H_c due to P = 0 at the inlet: due to the pressure missing there, which is
+   !> 4 lambda_bar/(3 |X|^3) far from the contact and larger near it; due to the load beyond the inlet; and with a flooded border
    real(dp), parameter :: by_pressure = 1.5_dp, by_load = 0.9_dp, by_flooded = 0.07_dp
 
 contains
@@ -26,7 +26,7 @@ contains
       ends = [inlet, outlet]*max(1.0_dp, sqrt(2.0_dp*contact%film_formula(point%moes_m, point%moes_l)))
    end function line_ends
 
-   !> Upper estimate of the relative error of the film due to an inlet at x, against the flooded contact
+   !> Upper estimate of the relative error of the film due to an inlet at x, relative to the flooded contact
    pure real(dp) function line_domain_error(contact, point, x, flooded) result(error)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point

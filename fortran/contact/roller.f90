@@ -82,7 +82,8 @@ contains
       contact%ellipticity = 0.5_dp*profile%length/scales%length
       contact%load = pi*contact%ellipticity
       contact%kernel_factor = 0.5_dp/pi
-      ! that of a line, relative to |X - X'| = 1, plus the difference of the kernels in the middle: 2 asinh(L/2) for its factor 2
+      ! that of a line contact minus k_b int P dX = 1/4 times the difference of the kernels in the middle of the roller,
+      ! 2 asinh(L/(2|X - X'|)) + 2 ln|X - X'|, which is 2 ln L for a long roller
       contact%dry_separation = -0.25_dp - 0.5_dp*log(2.0_dp) - 0.5_dp*log(2.0_dp*contact%ellipticity)
       contact%reach = [sqrt(max_load_ratio(contact)), contact%ellipticity]
    end function new_roller

@@ -31,7 +31,7 @@ module ehl_deflection
          type(grid_t), intent(in) :: grid
          !> k_b
          real(dp), intent(in) :: factor
-         !> Largest error allowed, relative to the largest deflection; engines that are exact
+         !> Maximum error allowed, relative to the maximum deflection; engines that are exact
          !> to rounding ignore it
          real(dp), intent(in) :: accuracy
          !> OpenMP threads to use; the result does not depend on it

@@ -15,7 +15,7 @@ module ehl_deflection_factory
    character(len=*), parameter :: deflection_engines(*) = [character(len=6) :: &
       "mlmi", "fft"]
 
-   !> Number of nodes of a row up to which direct summation costs less than an FFT with its plans
+   !> Number of nodes of a row up to which direct summation costs less than an FFT including its plans
    integer, parameter :: short = 1025
 
 contains

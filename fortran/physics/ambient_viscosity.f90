@@ -13,7 +13,7 @@ module ehl_ambient_viscosity
       logical :: by_sheet = .false.
       !> Constants of Vogel: K [Pa s], B [K], C [degC]
       real(dp) :: vogel(3) = 0.0_dp
-      !> The data sheet: its line, density at 15 degC [kg/m^3], thermal expansion [1/K]
+      !> Data sheet: Walther's equation for the kinematic viscosity, density at 15 degC [kg/m^3], thermal expansion [1/K]
       type(walther_t) :: line
       real(dp) :: density = 0.0_dp, expansion = 0.0_dp
    contains

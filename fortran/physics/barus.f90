@@ -17,7 +17,7 @@ module ehl_barus
 
 contains
 
-   !> ln(eta/eta0) at the temperature of the inlet, and its slope
+   !> ln(eta/eta0) at the temperature of the inlet, and its derivative with respect to p
    pure subroutine log_viscosity(self, p, values, slope)
       class(barus_t), intent(in) :: self
       real(dp), intent(in) :: p(:)

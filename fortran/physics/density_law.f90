@@ -14,7 +14,7 @@ module ehl_density_law
    end type density_law_t
 
    abstract interface
-      !> rho/rho0 at pressures p over the Hertz pressure and the temperature of the inlet, and its slope in p
+      !> rho/rho0 at pressures p over the Hertz pressure and the temperature of the inlet, and its derivative with respect to p
       pure subroutine density(self, p, rho, slope)
          import :: density_law_t, dp
          implicit none (type, external)

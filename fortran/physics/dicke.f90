@@ -40,7 +40,7 @@ contains
       law%ambient_viscosity = exp(law%level)
    end function new_dicke
 
-   !> ln(eta/eta0) at the temperature of the inlet, and its slope
+   !> ln(eta/eta0) at the temperature of the inlet, and its derivative with respect to p
    pure subroutine log_viscosity(self, p, values, slope)
       class(dicke_t), intent(in) :: self
       real(dp), intent(in) :: p(:)

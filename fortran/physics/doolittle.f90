@@ -19,7 +19,7 @@ module ehl_doolittle
       !> V/V_R of this law over that of `state`, whose T_R may be different
       real(dp) :: scale = 1.0_dp
       !> B R0, R0, eps [1/K]
-      real(dp) :: strength = 0.0_dp, occupied = 0.5_dp, growth = 0.0_dp
+      real(dp) :: b_r0 = 0.0_dp, occupied = 0.5_dp, expansion = 0.0_dp
       !> T - T_R of the inlet [K], ln(eta_0/eta_R)
       real(dp) :: above = 0.0_dp, level = 0.0_dp
    contains
@@ -32,16 +32,16 @@ module ehl_doolittle
 contains
 
    !> The law from eta_R [Pa s], B, R0, eps [1/K], T_R [K], the equation of state and the temperature of the inlet [K]
-   pure function new_doolittle(reference_viscosity, b, occupied, growth, reference, state, temperature) result(law)
-      real(dp), intent(in) :: reference_viscosity, b, occupied, growth, reference, temperature
+   pure function new_doolittle(reference_viscosity, b, occupied, expansion, reference, state, temperature) result(law)
+      real(dp), intent(in) :: reference_viscosity, b, occupied, expansion, reference, temperature
       type(tait_t), intent(in) :: state
       type(doolittle_t) :: law
 
       law%state = state
       law%scale = 1.0_dp/state%volume(0.0_dp, reference - temperature)
-      law%strength = b*occupied
+      law%b_r0 = b*occupied
       law%occupied = occupied
-      law%growth = growth
+      law%expansion = expansion
       law%above = temperature - reference
       law%level = law%above_reference(0.0_dp, 0.0_dp)
       law%ambient_viscosity = reference_viscosity*exp(law%level)
@@ -52,7 +52,7 @@ contains
       class(doolittle_t), intent(in) :: self
       real(dp), intent(in) :: p, rise
 
-      free_volume = self%scale*self%state%volume(p, rise) - self%occupied*(1.0_dp + self%growth*(self%above + rise))
+      free_volume = self%scale*self%state%volume(p, rise) - self%occupied*(1.0_dp + self%expansion*(self%above + rise))
    end function free_volume
 
    !> ln(eta/eta_R) at a pressure and a temperature rise [K]
@@ -64,11 +64,11 @@ contains
       free = self%free_volume(p, rise)
       above_reference = solid()
       if (free > 0.0_dp) then
-         above_reference = self%strength*((1.0_dp + self%growth*(self%above + rise))/free - 1.0_dp/(1.0_dp - self%occupied))
+         above_reference = self%b_r0*((1.0_dp + self%expansion*(self%above + rise))/free - 1.0_dp/(1.0_dp - self%occupied))
       end if
    end function above_reference
 
-   !> ln(eta/eta0) at the temperature of the inlet, and its slope
+   !> ln(eta/eta0) at the temperature of the inlet, and its derivative with respect to p
    pure subroutine log_viscosity(self, p, values, slope)
       class(doolittle_t), intent(in) :: self
       real(dp), intent(in) :: p(:)
@@ -80,7 +80,7 @@ contains
          values(i) = self%above_reference(p(i), 0.0_dp) - self%level
          free = self%free_volume(p(i), 0.0_dp)
          slope(i) = 0.0_dp
-         if (free > 0.0_dp) slope(i) = -self%strength*(1.0_dp + self%growth*self%above)*self%scale &
+         if (free > 0.0_dp) slope(i) = -self%b_r0*(1.0_dp + self%expansion*self%above)*self%scale &
                                        *self%state%volume_slope(p(i))/free**2
       end do
    end subroutine log_viscosity

@@ -37,7 +37,7 @@ module ehl_lubricant
 
 contains
 
-   !> Lubricant with laws whose only oil constants are alpha and beta
+   !> Lubricant with the viscosity of Barus or Roelands, and constant density or that of Dowson & Higginson
    function new_lubricant(viscosity_law, density_law, alpha_bar, hertz_pressure, z, roelands_p0, beta, expansion, &
                           temperature) result(lubricant)
       integer, intent(in) :: viscosity_law, density_law
@@ -71,7 +71,7 @@ contains
       end if
    end function new_lubricant
 
-   !> ln(eta/eta0) at pressures p and the temperature of the inlet, and its slope in P
+   !> ln(eta/eta0) at pressures p and the temperature of the inlet, and its derivative with respect to p
    pure subroutine log_viscosity(self, p, values, slope)
       class(lubricant_t), intent(in) :: self
       real(dp), intent(in) :: p(:)
@@ -87,7 +87,7 @@ contains
       call self%viscosity%log_viscosity_at(p, rise, values)
    end subroutine log_viscosity_at
 
-   !> Density rho/rho0 at pressures p and the temperature of the inlet, and its slope in P
+   !> Density rho/rho0 at pressures p and the temperature of the inlet, and its derivative with respect to p
    pure subroutine density(self, p, rho, slope)
       class(lubricant_t), intent(in) :: self
       real(dp), intent(in) :: p(:)

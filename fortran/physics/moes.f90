@@ -10,7 +10,7 @@ module ehl_moes
 
    !> Operating point. Dimensionless unless a unit is given.
    type :: operating_t
-      !> Moes load M = W2 (2U)^(-3/4) and material L = G (2U)^(1/4) parameters
+      !> Moes load parameter M = W2 (2U)^(-3/4) and material parameter L = G (2U)^(1/4)
       real(dp) :: moes_m = 0.0_dp, moes_l = 0.0_dp
       !> M of the round contact with the same speed parameter
       real(dp) :: round_m = 0.0_dp
@@ -22,7 +22,7 @@ module ehl_moes
 
 contains
 
-   !> Operating point from M and L with R_x
+   !> Operating point from M and L, defined with R_x
    pure function operating_from_moes(moes_m, moes_l, ellipticity, kernel_factor) result(point)
       !> kappa and k_b of the contact
       real(dp), intent(in) :: moes_m, moes_l, ellipticity, kernel_factor

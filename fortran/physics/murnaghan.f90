@@ -13,7 +13,7 @@ module ehl_murnaghan
 
    type, extends(density_law_t) :: murnaghan_t
       private
-      !> K0' and, at the temperature of the inlet, K0/p_h
+      !> K0', the derivative of the bulk modulus with respect to pressure, and K0/p_h at the temperature of the inlet
       real(dp) :: rate = 1.0_dp, modulus = 1.0_dp
       !> beta_K and relative decrease of the density with temperature [1/K]
       real(dp) :: softening = 0.0_dp, expansion = 0.0_dp
@@ -36,18 +36,18 @@ contains
       law%modulus = modulus*exp(-softening*temperature)/hertz_pressure
    end function new_murnaghan
 
-   !> rho/rho0 at the temperature of the inlet, and its slope
+   !> rho/rho0 at the temperature of the inlet, and its derivative with respect to p
    pure subroutine density(self, p, rho, slope)
       class(murnaghan_t), intent(in) :: self
       real(dp), intent(in) :: p(:)
       real(dp), intent(out) :: rho(:), slope(:)
-      real(dp) :: stiffer
+      real(dp) :: stiffening
       integer :: i
 
       do i = 1, size(p)
-         stiffer = 1.0_dp + self%rate*p(i)/self%modulus
-         rho(i) = exp(log(stiffer)/self%rate)
-         slope(i) = rho(i)/(stiffer*self%modulus)
+         stiffening = 1.0_dp + self%rate*p(i)/self%modulus
+         rho(i) = exp(log(stiffening)/self%rate)
+         slope(i) = rho(i)/(stiffening*self%modulus)
       end do
    end subroutine density
 

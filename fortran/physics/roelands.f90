@@ -40,7 +40,7 @@ contains
       if (law%prefactor > 0.0_dp) law%s0 = beta*law%reference/law%prefactor
    end function new_roelands
 
-   !> ln(eta/eta0) at the temperature of the inlet, and its slope
+   !> ln(eta/eta0) at the temperature of the inlet, and its derivative with respect to p
    pure subroutine log_viscosity(self, p, values, slope)
       class(roelands_t), intent(in) :: self
       real(dp), intent(in) :: p(:)

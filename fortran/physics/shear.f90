@@ -100,8 +100,8 @@ contains
    end function thins_flow
 
    !> Initial estimate of the central film of a shear-thinning lubricant, from that of a Newtonian one: h is proportional to
-   !> eta^(2/3), with the viscosity of the inlet, where alpha p = 1, at the shear rate (u + |u1 - u2|)/h. The estimate is rather
-   !> too low, because the solver should not start with a film that is much too thick.
+   !> eta^(2/3), with the viscosity of the inlet, where alpha p = 1, at the shear rate (u + |u1 - u2|)/h. The estimate is
+   !> deliberately low, because the solver should not start with a film that is much too thick.
    pure real(dp) function thinned_film(self, newtonian, speed_parameter) result(film)
       class(shear_law_t), intent(in) :: self
       !> Newtonian film [a^2/R]; lambda_bar = 12 eta0 u/(a^2/R) over gradient_scale

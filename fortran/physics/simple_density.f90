@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Density laws without oil constants: incompressible, and Dowson & Higginson 1966,
+!> Density laws with the thermal expansion as their only oil constant: incompressible, and Dowson & Higginson 1966,
 !> rho/rho0 = (5.9e8 Pa + 1.34 p)/(5.9e8 Pa + p); both decrease linearly with temperature
 module ehl_simple_density
    use ehl_density_law, only: density_law_t
@@ -41,7 +41,7 @@ contains
       law%expansion = expansion
    end function new_dowson_higginson
 
-   !> rho/rho0 at the temperature of the inlet, and its slope
+   !> rho/rho0 at the temperature of the inlet, and its derivative with respect to p
    pure subroutine density(self, p, rho, slope)
       class(dowson_higginson_t), intent(in) :: self
       real(dp), intent(in) :: p(:)
@@ -67,7 +67,7 @@ contains
       rho = rho*(1.0_dp - self%expansion*rise)
    end subroutine density_at
 
-   !> rho/rho0 at the temperature of the inlet, 1, and its slope
+   !> rho/rho0 at the temperature of the inlet, 1, and its derivative with respect to p, 0
    pure subroutine density_incompressible(self, p, rho, slope)
       class(incompressible_t), intent(in) :: self
       real(dp), intent(in) :: p(:)

@@ -11,7 +11,7 @@ module ehl_tait
 
    type, extends(density_law_t) :: tait_t
       private
-      !> 1 + K0' and, at the temperature of the inlet, K0/p_h
+      !> 1 + K0' (K0': derivative of the bulk modulus with respect to pressure), and K0/p_h at the temperature of the inlet
       real(dp) :: rate = 1.0_dp, modulus = 1.0_dp
       !> beta_K and a_V [1/K]
       real(dp) :: softening = 0.0_dp, expansion = 0.0_dp
@@ -56,7 +56,7 @@ contains
       volume_slope = -self%ambient/(self%modulus + self%rate*p)
    end function volume_slope
 
-   !> rho/rho0 at the temperature of the inlet, and its slope
+   !> rho/rho0 at the temperature of the inlet, and its derivative with respect to p
    pure subroutine density(self, p, rho, slope)
       class(tait_t), intent(in) :: self
       real(dp), intent(in) :: p(:)

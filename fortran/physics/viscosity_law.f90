@@ -10,7 +10,7 @@ module ehl_viscosity_law
 
    !> Viscosity over eta0, that at ambient pressure and the temperature of the inlet
    type, abstract :: viscosity_law_t
-      !> [Pa s] eta0, of laws that have it
+      !> [Pa s] eta0, of laws that determine it; 0 of the others
       real(dp) :: ambient_viscosity = 0.0_dp
    contains
       procedure(log_viscosity), deferred :: log_viscosity
@@ -18,7 +18,7 @@ module ehl_viscosity_law
    end type viscosity_law_t
 
    abstract interface
-      !> ln(eta/eta0) at pressures p over the Hertz pressure and the temperature of the inlet, and its slope in p
+      !> ln(eta/eta0) at pressures p over the Hertz pressure and the temperature of the inlet, and its derivative with respect to p
       pure subroutine log_viscosity(self, p, values, slope)
          import :: dp, viscosity_law_t
          implicit none (type, external)

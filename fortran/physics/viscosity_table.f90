@@ -9,7 +9,7 @@ module ehl_viscosity_table
    private
    public :: isotherm_t, viscosity_table_t, new_isotherm, new_viscosity_table
 
-   !> Pressures in increasing order, ln of the viscosities [Pa s] and their slopes
+   !> Pressures in increasing order, ln of the viscosities [Pa s] and the derivatives with respect to pressure
    type :: isotherm_t
       !> [K]
       real(dp) :: temperature = 0.0_dp
@@ -35,7 +35,7 @@ contains
    pure function new_isotherm(temperature, p, viscosity) result(isotherm)
       real(dp), intent(in) :: temperature, p(:), viscosity(:)
       type(isotherm_t) :: isotherm
-      real(dp) :: h(size(p) - 1), rise(size(p) - 1)
+      real(dp) :: h(size(p) - 1), chords(size(p) - 1)
       integer :: k, n
 
       n = size(p)
@@ -44,11 +44,11 @@ contains
       allocate (isotherm%values(n), isotherm%slopes(n))
       isotherm%values = log(viscosity)
       h = p(2:) - p(:n - 1)
-      rise = (isotherm%values(2:) - isotherm%values(:n - 1))/h
-      isotherm%slopes(1) = rise(1)
-      isotherm%slopes(n) = rise(n - 1)
+      chords = (isotherm%values(2:) - isotherm%values(:n - 1))/h
+      isotherm%slopes(1) = chords(1)
+      isotherm%slopes(n) = chords(n - 1)
       do k = 2, n - 1
-         isotherm%slopes(k) = harmonic(h(k - 1), h(k), rise(k - 1), rise(k))
+         isotherm%slopes(k) = harmonic(h(k - 1), h(k), chords(k - 1), chords(k))
       end do
    end function new_isotherm
 
@@ -80,7 +80,7 @@ contains
       law%ambient_viscosity = exp(law%level)
    end function new_viscosity_table
 
-   !> ln(eta) of an isotherm and its slope
+   !> ln(eta) of an isotherm, and its derivative with respect to p
    pure subroutine evaluate(self, p, value, slope)
       class(isotherm_t), intent(in) :: self
       real(dp), intent(in) :: p
@@ -114,12 +114,12 @@ contains
       end associate
    end subroutine evaluate
 
-   !> ln(eta/Pa s) and its slope at a pressure and a temperature rise [K]
+   !> ln(eta/Pa s), and its derivative with respect to p, at a pressure and a temperature rise [K]
    pure subroutine at(self, p, rise, value, slope)
       class(viscosity_table_t), intent(in) :: self
       real(dp), intent(in) :: p, rise
       real(dp), intent(out) :: value, slope
-      real(dp) :: warm, warm_slope, weight
+      real(dp) :: hot_value, hot_slope, weight
       integer :: k
 
       if (size(self%isotherms) == 1) then
@@ -134,13 +134,13 @@ contains
       associate (cold => self%isotherms(k), hot => self%isotherms(k + 1))
          weight = (1.0_dp/cold%temperature - 1.0_dp/(self%inlet + rise))/(1.0_dp/cold%temperature - 1.0_dp/hot%temperature)
          call cold%evaluate(p, value, slope)
-         call hot%evaluate(p, warm, warm_slope)
+         call hot%evaluate(p, hot_value, hot_slope)
       end associate
-      value = value + weight*(warm - value)
-      slope = slope + weight*(warm_slope - slope)
+      value = value + weight*(hot_value - value)
+      slope = slope + weight*(hot_slope - slope)
    end subroutine at
 
-   !> ln(eta/eta0) at the temperature of the inlet, and its slope
+   !> ln(eta/eta0) at the temperature of the inlet, and its derivative with respect to p
    pure subroutine log_viscosity(self, p, values, slope)
       class(viscosity_table_t), intent(in) :: self
       real(dp), intent(in) :: p(:)

@@ -54,7 +54,7 @@ contains
       if (self%c2 + d > 0.0_dp) below_glass = -log(10.0_dp)*self%c1*d/(self%c2 + d)
    end function below_glass
 
-   !> ln(eta/eta0) at the temperature of the inlet, and its slope
+   !> ln(eta/eta0) at the temperature of the inlet, and its derivative with respect to p
    pure subroutine log_viscosity(self, p, values, slope)
       class(yasutomi_t), intent(in) :: self
       real(dp), intent(in) :: p(:)

@@ -20,7 +20,7 @@ module ehl_plan_friction
       real(dp) :: slide_to_roll = 0.0_dp, mean_velocity = 0.0_dp
       !> Load [N]
       real(dp) :: load = 0.0_dp
-      !> Stress above which oils are not Newtonian [Pa]
+      !> Shear stress above which the lubricant is not Newtonian [Pa]
       real(dp) :: newtonian_limit = 0.0_dp
       !> Thermal conductivity [W/(m K)] and diffusivity [m^2/s] of bodies 1 and 2
       real(dp) :: conductivity(2) = 0.0_dp, diffusivity(2) = 0.0_dp

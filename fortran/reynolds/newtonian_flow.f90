@@ -3,7 +3,7 @@
 !>
 !>    eps = rho H^3/(eta lambda_bar),   d ln(eps)/dP = d ln(rho)/dP - d ln(eta)/dP,   d ln(eps)/d ln(H) = 3
 !>
-!> The viscosity is not stored: friction, which alone needs it, computes it from the conductance.
+!> The viscosity is not stored: only the friction needs it, and computes it from the conductance.
 module ehl_newtonian_flow
    use ehl_flow, only: dir_x, flow_t
    use ehl_kinds, only: dp
@@ -21,7 +21,8 @@ module ehl_newtonian_flow
 
 contains
 
-   !> Conductances of row j and their derivatives with respect to P. Downstream of `last` the lubricant is that at P = 0.
+   !> Conductances of row j and their derivatives with respect to P. Downstream of `last` the lubricant
+   !> has its properties at P = 0.
    pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)
       class(newtonian_flow_t), intent(inout) :: self
       type(lubricant_t), intent(in) :: lubricant
@@ -30,7 +31,7 @@ contains
       !> Film, density and its derivative with respect to P in row j, shape (nx)
       real(dp), contiguous, intent(in) :: h(:), rho(:), drho_dp(:)
       integer, intent(in) :: j, last
-      real(dp) :: rest_log(1), rest_slope(1)
+      real(dp) :: ambient_log(1), ambient_slope(1)
       integer :: i
 
       ! eps contains ln(eta/eta0) until the loop below
@@ -39,9 +40,9 @@ contains
          self%eps(i, j, dir_x) = rho(i)*h(i)**3*exp(-self%eps(i, j, dir_x))*self%inverse_speed
       end do
       if (last < size(p, 1)) then
-         call lubricant%log_viscosity([0.0_dp], rest_log, rest_slope)
-         self%dlneps_dp(last + 1:, j, dir_x) = rest_slope(1)
-         self%eps(last + 1:, j, dir_x) = rho(last + 1)*exp(-rest_log(1))*self%inverse_speed*h(last + 1:)**3
+         call lubricant%log_viscosity([0.0_dp], ambient_log, ambient_slope)
+         self%dlneps_dp(last + 1:, j, dir_x) = ambient_slope(1)
+         self%eps(last + 1:, j, dir_x) = rho(last + 1)*exp(-ambient_log(1))*self%inverse_speed*h(last + 1:)**3
       end if
       self%dlneps_dp(:, j, dir_x) = drho_dp/rho - self%dlneps_dp(:, j, dir_x)
    end subroutine find_row

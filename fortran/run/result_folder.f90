@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Files of a result, the same for both drivers
+!> Files of a result, the same for `ehl` and the Python package
 module ehl_result_folder
    use ehl_case, only: case_t
    use ehl_contact_run, only: phase_steps

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Solver of a case: plan, smooth contact, rough contact, the run on the next coarser grid, results. It is the only interface of
-!> both drivers.
+!> `ehl` and of the Python package to the computation.
 module ehl_solver
    use ehl_case, only: case_t
    use ehl_write_case, only: write_case

@@ -15,8 +15,8 @@ module ehl_stationary_rough
 
 contains
 
-   !> Solve with an increasing fraction of the roughness: first 0 (the smooth contact to the accuracy of the friction), then 1, or,
-   !> where the cycles fail, half of the remaining step. The observer may stop after any cycle; the next call continues there.
+   !> Solve with an increasing fraction of the roughness: first 0 (the smooth contact, to the tolerance of the friction), then 1,
+   !> or, if the cycles fail, half of the remaining step. The observer may stop after any cycle; the next call continues there.
    subroutine solve_stationary(run, observer, leave, status)
       type(contact_run_t), intent(inout) :: run
       class(observer_t), intent(inout) :: observer

@@ -23,15 +23,15 @@ module ehl_stationary_state
    !> Relative algebraic error of the friction integral over the required accuracy; that allowed at an intermediate fraction of
    !> the roughness
    real(dp), parameter :: friction_tolerance = 1.0e-3_dp, fraction_tolerance = 3.0e-2_dp
-   !> Largest relative error of the force balance that scaling the pressure may correct at a boundary film
+   !> Maximum relative error of the force balance that scaling the pressure may correct at a boundary film
    real(dp), parameter :: small_load_error = 1.0e-5_dp
-   !> Smallest cycle limit of a fraction at a boundary film, per node along X: lubricant trapped between nodes in solid contact
+   !> Minimum cycle limit of a fraction at a boundary film, per node along X: lubricant trapped between nodes in solid contact
    !> moves about three nodes per cycle, through at most half of the nodes
    real(dp), parameter :: cycles_per_node = 0.5_dp
    !> Relative error of the load at a boundary film above which the cycles are stopped, and the cycles made before this test
    real(dp), parameter :: max_load_error = 1.0_dp
    integer, parameter :: load_test_after = 10
-   !> Smallest step of the fraction
+   !> Minimum step of the fraction
    real(dp), parameter :: min_step = 1.0_dp/64.0_dp
 
    !> Iteration at the present fraction of the roughness
@@ -52,7 +52,7 @@ module ehl_stationary_state
       real(dp), private :: tolerance = 1.0e-4_dp
       !> Options of cycles without solid contact
       type(cycle_options_t), private :: cycle
-      !> Whether the convergence with solid contact is judged by the load share instead of the friction
+      !> Whether the convergence with solid contact is tested by the load share instead of the friction
       logical, private :: by_load_share = .false.
       !> The roughness [a^2/R], and the pressure at the last fraction that was solved, shape (nx, ny)
       real(dp), allocatable :: rr(:, :), p_done(:, :)
@@ -94,7 +94,7 @@ contains
       if (allocated(self%rr)) deallocate (self%rr, self%p_done)
       allocate (self%rr(level%grid%nx, level%grid%ny), self%p_done(level%grid%nx, level%grid%ny), stat=stat)
       if (stat /= 0) then
-         call status%fail(ehl_no_memory, "no memory for the roughness at rest")
+         call status%fail(ehl_no_memory, "no memory for the stationary roughness")
          return
       end if
       call surfaces%roughness(level%grid, 0.0_dp, self%rr, moving=.false.)

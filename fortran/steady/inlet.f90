@@ -17,7 +17,7 @@ module ehl_inlet
    private
    public :: inlet_t, share_by_film
 
-   !> c, and the largest e of a grid that determines the load share
+   !> c, and the maximum e of a grid that determines the load share
    real(dp), parameter :: factor = 1.3_dp, resolved_error = 0.12_dp
    !> Load share, and its fraction of the friction, up to which a coarse grid is accepted: finer grids give thicker films, so that
    !> the error is at most the load share itself
@@ -28,8 +28,9 @@ module ehl_inlet
    !> the boundary film
    real(dp), parameter :: share_by_film = 8.0_dp, edge_error = 0.5_dp
    !> Error of the load share s over s (1 - s) r/H, with the rms residual r of the wedge term: the residual adds up along the solid
-   !> contact and moves its edge by a node in several cycles, so that changes per cycle are no measure. It covers 135 of 138
-   !> results (M from 100 to 2500, boundary films of 0.4 to 1.1 times the film, against residuals 10 to 1000 times smaller)
+   !> contact and moves its edge by a node in several cycles, so that the change per cycle does not measure it. It covers 135 of 138
+   !> results (M from 100 to 2500, boundary films of 0.4 to 1.1 times the film, compared with solutions with residuals 10 to 1000
+   !> times smaller)
    real(dp), parameter :: share_by_residual = 80.0_dp
 
    type :: inlet_t

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Fourier sums at equidistant points of any start and spacing, exactly and in O(n log n): the chirp-z transform
+!> Fourier sums at equidistant points with any start and spacing, exact and in O(n log n) operations: the chirp-z transform
 !> (Bluestein 1970; Rabiner, Schafer & Rader 1969)
 module ehl_chirp
    use, intrinsic :: iso_c_binding, only: c_double_complex, c_null_ptr, c_ptr
@@ -51,14 +51,14 @@ contains
       if (status%failed()) return
       ! k j = (k^2 + j^2 - (j - k)^2)/2
       do k = -waves, waves
-         self%before(k) = turned(modulo(k*start, 1.0_dp))*turned(half_square(k, step))
+         self%before(k) = phase_factor(modulo(k*start, 1.0_dp))*phase_factor(half_square(k, step))
       end do
       do k = 0, points - 1
-         self%after(k) = turned(half_square(k, step))/self%n
+         self%after(k) = phase_factor(half_square(k, step))/self%n
       end do
       self%work = (0.0_dp, 0.0_dp)
       do k = -waves, points - 1 + waves
-         self%work(modulo(k, self%n)) = conjg(turned(half_square(k, step)))
+         self%work(modulo(k, self%n)) = conjg(phase_factor(half_square(k, step)))
       end do
       call fftw_execute_dft(self%forward, self%work, self%work)
       self%kernel = self%work
@@ -88,10 +88,10 @@ contains
    end subroutine clear
 
    !> exp(2 pi i t)
-   elemental complex(zp) function turned(t)
+   elemental complex(zp) function phase_factor(t)
       real(dp), intent(in) :: t
-      turned = cmplx(cos(2.0_dp*pi*t), sin(2.0_dp*pi*t), zp)
-   end function turned
+      phase_factor = cmplx(cos(2.0_dp*pi*t), sin(2.0_dp*pi*t), zp)
+   end function phase_factor
 
    !> step k^2/2, without whole periods
    elemental real(dp) function half_square(k, step)

@@ -113,7 +113,8 @@ contains
       time = max(out, in + 2.0_dp*x_filled)
    end function passage_time
 
-   !> Repeat the feature along Y, on a strip of a line contact, at a distance; 0: a distance at which its neighbours hardly matter
+   !> Repeat the feature along Y, on a strip of a line contact, at a distance; 0: a distance at which its neighbours have little
+   !> influence
    pure subroutine repeat_along_y(self, distance)
       class(feature_t), intent(inout) :: self
       real(dp), intent(in) :: distance
@@ -192,9 +193,9 @@ contains
       end associate
    end function wavelengths
 
-   !> Fraction of the variance of its profile in waves with fewer nodes per period than `nodes`, in the worse of both
-   !> directions: the spectrum of exp(-c s^2) cos(k s) is known in closed form. No wave is truncated, but a feature no wider than
-   !> two mesh sizes counts as not resolved.
+   !> Fraction of the variance of its profile in waves with fewer nodes per period than `nodes`, in the less resolved of
+   !> both directions: the spectrum of exp(-c s^2) cos(k s) is known in closed form. No wave is truncated, but a feature no wider
+   !> than two mesh sizes counts as not resolved.
    pure real(dp) function unresolved(self, grid, nodes)
       class(feature_t), intent(in) :: self
       type(grid_t), intent(in) :: grid

@@ -24,7 +24,7 @@ module ehl_fractal
       real(dp) :: hurst = 0.8_dp, rolloff_wavenumber = 0.0_dp
       !> Seed as 32-bit words, the lowest first
       integer(int32), allocatable :: seed(:)
-      !> Modulus of the components: that of a Gaussian random field, or exactly the power law
+      !> Whether the moduli of the components are random, as in a Gaussian field; otherwise they follow the power law exactly
       logical :: gaussian = .false.
       !> Correlation length along X over that along Y; the roll-off applies to the shorter one
       real(dp) :: lay_ratio = 1.0_dp

@@ -11,7 +11,8 @@ module ehl_harmonic
    !> Wavelength along Y of a wave that does not vary along Y [a]
    real(dp), parameter :: endless = 1.0e30_dp
 
-   !> RR = A_i 10^(-10 max(0, (X - X_f)/lambda_x)^2) cos(2 pi (X - X_f)/lambda_x) cos(2 pi Y/lambda_y)
+   !> RR = A_i 10^(-10 max(0, (X - X_f)/lambda_x)^2) cos(2 pi (X - X_f)/lambda_x) cos(2 pi Y/lambda_y), with its front at
+   !> X_f
    type, extends(surface_t) :: harmonic_t
       !> Wavelengths [a]
       real(dp) :: wavelength_x = 0.5_dp, wavelength_y = 0.5_dp
@@ -74,7 +75,7 @@ contains
       end select
    end function correlation
 
-   !> Rms slope of a product of two cosines
+   !> Rms slope of a product of two cosines, or of one cosine
    pure real(dp) function rms_slope(self)
       class(harmonic_t), intent(in) :: self
       rms_slope = self%rms_height()*hypot(2.0_dp*pi/self%wavelength_x, 2.0_dp*pi/self%wavelength_y)

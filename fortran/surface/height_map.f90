@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A height map as a periodic tile that moves through the contact or is stationary. Only the waves of the tile are stored, in
-!> the memory of one copy; for a grid, the waves that it resolves are summed exactly on the rows of the grid at points along X,
-!> and interpolated between these points.
+!> A height map as a periodic tile that moves through the contact or is stationary. Only the waves of the tile are stored, which
+!> need the memory of one copy of the heights; for a grid, the waves that it resolves are summed exactly on the rows of the grid at
+!> points along X, and interpolated between these points.
 module ehl_height_map
    use, intrinsic :: iso_c_binding, only: c_double_complex, c_ptr
    use ehl_chirp, only: chirp_t
@@ -81,7 +81,7 @@ contains
       if (allocated(self%refined)) deallocate (self%refined)
    end subroutine setup
 
-   !> Transfer the waves to a surface of the same kind on another grid, so that memory contains one copy
+   !> Transfer the waves to a surface of the same kind on another grid, so that there is only one copy in memory
    subroutine transfer(self, other)
       class(height_map_t), intent(inout) :: self
       class(surface_t), allocatable, intent(out) :: other
@@ -109,7 +109,8 @@ contains
       end select
    end subroutine reclaim
 
-   !> Maximum number of periods in the tile, along X and Y, of waves with at least `nodes` nodes per period (more: more than that)
+   !> Maximum number of periods in the tile, along X and Y, of waves with at least `nodes` nodes per period (`more`: with more than
+   !> `nodes`)
    pure function resolved_waves(self, grid, nodes, more) result(most)
       class(height_map_t), intent(in) :: self
       type(grid_t), intent(in) :: grid

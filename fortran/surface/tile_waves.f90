@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The waves of a periodic tile of heights, in the memory of one copy of the given heights: the spectrum of a
-!> tile; for a map that becomes a tile with its mirror images the cosine transform, a quarter of the spectrum of that tile
+!> The waves of a periodic tile of heights, which need as much memory as the given heights: the spectrum of the tile; or, for a
+!> map that becomes a tile with its mirror images, the cosine transform, a quarter of the spectrum of that tile
 module ehl_tile_waves
    use, intrinsic :: iso_c_binding, only: c_double_complex
    use ehl_fftw_planner, only: to_cosines, to_spectrum

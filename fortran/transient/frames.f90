@@ -24,7 +24,7 @@ module ehl_frames
 
 contains
 
-   !> Start without frames
+   !> Delete all frames
    subroutine start(self)
       class(frames_t), intent(inout) :: self
 
@@ -33,7 +33,7 @@ contains
       allocate (self%times(16), self%p(16), self%h(16))
    end subroutine start
 
-   !> Keep P and H after a step if a frame is due: after every step if the interval is at most a step
+   !> Keep P and H after a step if a frame is due: after every time step if the interval is at most one time step
    subroutine keep(self, level, time, time_step, interval, status)
       class(frames_t), intent(inout) :: self
       type(level_t), intent(in) :: level
