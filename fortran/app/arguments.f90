@@ -135,9 +135,9 @@ contains
       text = "Solve an elastohydrodynamically lubricated point or line contact." // newline // newline &
              // "  ehl CASE.nml -o DIR [--set group.key=value ...] [--force] [--quiet]" // newline &
              // "  ehl --resume DIR [CASE.nml] [-o DIR] [--set group.key=value ...] [--force] [--quiet]" // newline // newline &
-             // "  CASE.nml   namelist file, keys as in cases/README.md; every key has a default. What needs a table, a data" // &
-             " sheet" // newline &
-             // "             or two bodies is resolved by 'pyehl check CASE.nml --resolved out.nml'" // newline &
+             // "  CASE.nml   namelist file, keys as in cases/README.md; every key has a default. A case with a table, a" // &
+             " data" // newline &
+             // "             sheet or two bodies must be resolved first: 'pyehl check CASE.nml --resolved out.nml'" // newline &
              // "  -o DIR     folder for the results: new, empty, or of an earlier run" // newline &
              // "  --force    accept a folder with other files and keep them" // newline &
              // "  --set      replace a value of the case, any number of times" // newline &

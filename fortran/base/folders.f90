@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Folders by Linux system calls: their contents, and the exchange of two in one step
+!> Linux system calls for folders: their contents, and the exchange of two folders in one step
 module ehl_folders
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_f_procpointer, c_funptr, &
                                           c_int, c_int64_t, c_null_char, c_null_ptr, c_ptr, c_short, c_size_t

@@ -12,9 +12,9 @@ module ehl_f2py_predicted
 contains
 
    !> Set the predicted parts of mu_ratio due to truncated and to unresolved waves; NaN: no prediction
-   subroutine take_prediction(handle, left_out, unresolved, stat, message)
+   subroutine take_prediction(handle, truncated, unresolved, stat, message)
       integer(c_int), intent(in) :: handle
-      real(c_double), intent(in) :: left_out, unresolved
+      real(c_double), intent(in) :: truncated, unresolved
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
       type(run_t), pointer :: run
@@ -23,7 +23,7 @@ contains
       call run_of(handle, run, status)
       if (.not. status%failed()) then
          run%solver%waves_predicted = .true.
-         run%solver%predicted_waves = [left_out, unresolved]
+         run%solver%predicted_waves = [truncated, unresolved]
       end if
       call reply(status, stat, message)
    end subroutine take_prediction
@@ -64,7 +64,8 @@ contains
       call run_of(handle, run, status)
       if (why == "" .and. .not. status%failed()) then
          associate (grid => run%solver%run%plan%finest)
-            if (nx /= grid%nx .or. ny /= grid%full_ny()) call status%fail(ehl_bad_input, "a pressure for another grid")
+            if (nx /= grid%nx .or. ny /= grid%full_ny()) call status%fail(ehl_bad_input, &
+               "the pressure does not have the shape of the finest grid")
          end associate
       end if
       if (.not. status%failed()) then

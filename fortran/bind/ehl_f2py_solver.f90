@@ -182,7 +182,7 @@ contains
       call reply(status, stat, message)
    end subroutine keep_states
 
-   !> Present results, or the plan of the run: one name per line, with a text after a tab; kinds as in ehl_record; values
+   !> Current results, or the plan of the run: one name per line, with a text after a tab; kinds as in ehl_record; values
    subroutine results(handle, of_plan, n, bytes, m, kinds, values, length, found, stat, message)
       integer(c_int), intent(in) :: handle, of_plan
       integer(c_int), intent(in) :: n, m

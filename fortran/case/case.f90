@@ -10,9 +10,9 @@ module ehl_case
              psd_case_t, solver_case_t, surface_case_t, time_case_t, is_feature, has_no_height, word_length, &
              path_length
 
-   !> Longest option word
+   !> Maximum length of an option word
    integer, parameter :: word_length = 32
-   !> Longest file name
+   !> Maximum length of a file name
    integer, parameter :: path_length = 1024
 
    ! pyehl/case gives the units and meanings of the keys, ehl_case_ranges their ranges. A zero allowed there means "not given".
@@ -347,7 +347,7 @@ contains
       if (.not. allocated(numbers)) allocate (numbers(0))
    end function list
 
-   !> Load [N], or load per length of a line [N/m]
+   !> Load [N], or load per unit length of a line [N/m]
    pure real(dp) function size_of_load(self)
       class(contact_case_t), intent(in) :: self
       size_of_load = merge(self%load_per_length, self%load, self%is_line())

@@ -25,9 +25,9 @@ module ehl_case_check_roller
    character(len=14), parameter :: of_profile(2, 6) = reshape([character(len=14) :: "crown", "crown_radius", &
       "logarithmic", "log_amplitude", "chamfer", "chamfer_length", "chamfer", "chamfer_drop", &
       "file", "profile_y", "file", "profile_drop"], [2, 6])
-   !> Largest drop of a profile over the radius
+   !> Maximum drop of a profile over the radius
    real(dp), parameter :: max_drop = 0.1_dp
-   !> Smallest and largest length of a roller over b
+   !> Minimum and maximum length of a roller over b
    real(dp), parameter :: min_length = 4.0_dp, max_length = 400.0_dp
 
 contains

@@ -23,7 +23,7 @@ module ehl_case_checks
    private
    public :: check_given, check_complete
 
-   !> Largest M of the equivalent round contact
+   !> Maximum M of the equivalent round contact
    real(dp), parameter :: max_m = 1.0e5_dp
    !> Minimum p_h/E' of a plausible contact: 0.1 MPa between steel bodies
    real(dp), parameter :: min_strain = 4.0e-7_dp
@@ -94,7 +94,8 @@ contains
          if (key == "") return
          do k = 1, size(keys)
             if (source%given(group//"."//keys(k))) cycle
-            call source%refuse(key, key//" without "//group//"."//trim(keys(k))//", which pyehl makes of it", by_pyehl//or, status)
+            call source%refuse(key, key//" without "//group//"."//trim(keys(k))//", which pyehl derives from it", by_pyehl//or, &
+                               status)
             return
          end do
       end subroutine need

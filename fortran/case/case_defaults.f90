@@ -295,7 +295,7 @@ contains
                   s%velocity_ratio > 0.0_dp .and. other%velocity_ratio > 0.0_dp
    end function must_wait
 
-   !> Latest start of a feature: it comes near the contact when the front of the other surface leaves it
+   !> Latest start of a feature: it approaches the contact when the front of the other surface leaves it
    pure real(dp) function latest_start(s, other)
       type(surface_case_t), intent(in) :: s, other
       latest_start = x_matters - s%velocity_ratio*(x_filled - other%x_start)/other%velocity_ratio

@@ -14,7 +14,7 @@ module ehl_case_groups
 
    character(len=name_length), parameter :: group_names(*) = [character(len=name_length) :: "contact", "bodies", "lubricant", &
       "inlet", "grid", "surface", "second_surface", "time", "duty", "solver", "psd", "output"]
-   !> Largest number of lines of a group
+   !> Maximum number of lines of a group
    integer, parameter :: max_lines = 80
 
 contains
@@ -141,7 +141,7 @@ contains
       log_amplitude => v%profiles(1)%log_amplitude; log_amplitude_2 => v%profiles(2)%log_amplitude
       chamfer_length => v%profiles(1)%chamfer_length; chamfer_length_2 => v%profiles(2)%chamfer_length
       chamfer_drop => v%profiles(1)%chamfer_drop; chamfer_drop_2 => v%profiles(2)%chamfer_drop
-      ! largest number of values in a text of this length
+      ! maximum number of values in a text of this length
       allocate (profile_y(len(text)/2), profile_drop(len(text)/2), profile_y_2(len(text)/2), profile_drop_2(len(text)/2), &
                 source=huge(1.0_dp))
       if (len(text) == 0) then
@@ -261,7 +261,7 @@ contains
 
       file => v%file; interpolation => v%interpolation; periodic => v%periodic; periods => v%periods
       time_step => v%time_step; target_error => v%target_error
-      ! largest number of values in a text of this length
+      ! maximum number of values in a text of this length
       associate (n => len(text)/2)
          allocate (time(n), load(n), u1(n), u2(n), mean_velocity(n), slide_to_roll(n), radius_x(n), &
                    radius_y(n), viscosity(n), inlet_film(n), source=huge(1.0_dp))

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Reader of a case from namelist text, for the program and the extension. It checks the pieces of the text one by one, reads each
+!> Reader of a case from namelist text, for `ehl` and the Python package. It checks the pieces of the text one by one, reads each
 !> group with one intrinsic read, sets the defaults, and checks the complete case.
 module ehl_read_case
    use ehl_case, only: case_t, lubricant_case_t, path_length
@@ -18,7 +18,7 @@ module ehl_read_case
    private
    public :: read_case, read_case_file, read_lubricant
 
-   !> Largest size of a case file [bytes]
+   !> Maximum size of a case file [bytes]
    integer, parameter :: max_file_size = 1000000
    !> Keys that only pyehl derives, from an oil, a data sheet, two bodies or a finish
    character(len=name_length), parameter :: keys_by_pyehl(*) = [character(len=name_length) :: "radius_x", "radius_y", &

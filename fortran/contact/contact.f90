@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The macroscopic contact: shape of the two bodies and the load on them. The base type is a ball on a flat (Hertz 1881);
-!> other shapes extend it, and only ehl_contact_factory names them. Lengths, films and pressures are scaled (ehl_scales).
+!> other shapes extend it (ehl_contact_factory creates them). Lengths, films and pressures are scaled (ehl_scales).
 module ehl_contact
    use ehl_film_formula, only: film_central_formula
    use ehl_kinds, only: dp, pi
@@ -52,7 +52,7 @@ contains
       is_even = .not. abs(self%angle) > 0.0_dp
    end function is_even
 
-   !> Whether it is an infinite line contact, whose values are per length
+   !> Whether it is an infinite line contact, whose values are per unit length
    pure logical function is_line(self)
       class(contact_t), intent(in) :: self
       is_line = self%dimensions == 1
@@ -78,8 +78,8 @@ contains
    !> The scales of the contact in SI units
    pure function scales(self, load, radius, reduced_modulus)
       class(contact_t), intent(in) :: self
-      !> Load [N], of a line contact per length [N/m]; reduced radius R_x in the plane of the motion [m], reduced modulus E' [Pa],
-      !> 2/E' = sum (1 - nu^2)/E
+      !> Load [N], of a line contact per unit length [N/m]; reduced radius R_x in the plane of the motion [m], reduced modulus E'
+      !> [Pa], 2/E' = sum (1 - nu^2)/E
       real(dp), intent(in) :: load, radius, reduced_modulus
       type(scales_t) :: scales
       scales = scales_from_si(load, radius, reduced_modulus, self%ellipticity, self%kernel_factor)

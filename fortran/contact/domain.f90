@@ -26,7 +26,7 @@ module ehl_domain
       real(dp) :: inlet = -2.5_dp, outlet = 1.5_dp, side = 2.0_dp
    end type domain_t
 
-   !> Largest relative error of H_c due to a default domain
+   !> Maximum relative error of H_c due to a default domain
    real(dp), parameter :: tolerance = 0.002_dp
    !> From this M on border and domain are those of Zhang et al. 2019, unless the case states otherwise or the contact is wider
    !> than this ratio, where P = 0 on the border would change the film by several per cent
@@ -92,7 +92,7 @@ contains
          return
       end if
       if (contact%is_roller()) then
-         ! for the width at the maximum load per length; X = 0 remains a node
+         ! for the width at the maximum load per unit length; X = 0 remains a node
          ends = line_ends(contact, point)*contact%reach(1)
          do while (line_domain_error(contact, point, ends(1)/contact%reach(1), .false.) > tolerance)
             ends = 1.1_dp*ends
@@ -163,7 +163,7 @@ contains
       sides_over_round = maxval(contact%reach)
    end function sides_over_round
 
-   !> Upper estimates of the relative errors of H_c and H_min due to the domain, against the flooded contact; 1 or more: unknown
+   !> Upper estimates of the relative errors of H_c and H_min due to the domain, relative to the flooded contact; 1 or more: unknown
    pure recursive function domain_error(contact, point, domain, flooded, starved) result(error)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point

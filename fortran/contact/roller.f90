@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The contact of a roller of finite length, scaled by the line contact (ehl_line) under the mean load per length. With its b
+!> The contact of a roller of finite length, scaled by the line contact (ehl_line) under the mean load per unit length. With its b
 !> and R, the sum g of both profiles and the misalignment theta the gap is
 !>
 !>    G = X^2/2 + (R/b^2) (g(bY) + theta b Y),    |Y| <= L/2,    L = length/b
@@ -88,7 +88,7 @@ contains
       contact%reach = [sqrt(max_load_ratio(contact)), contact%ellipticity]
    end function new_roller
 
-   !> Maximum load per length over its mean if the load of each slice of the roller is proportional to its approach (Palmgren):
+   !> Maximum load per unit length over its mean if the load of each slice of the roller is proportional to its approach (Palmgren):
    !> 1 + (mean of the drop - drop)/d over the slices in contact, d the approach of bodies without a profile
    pure real(dp) function max_load_ratio(contact)
       type(roller_t), intent(in) :: contact
@@ -177,7 +177,7 @@ contains
       is_roller = .true.
    end function is_roller
 
-   !> b, b^2/R and p_h from the mean load per length
+   !> b, b^2/R and p_h from the mean load per unit length
    pure function scales(self, load, radius, reduced_modulus)
       class(roller_t), intent(in) :: self
       real(dp), intent(in) :: load, radius, reduced_modulus

@@ -2,7 +2,7 @@
 !> Temperature of two walls that move through the heat source of a contact, row by row along the motion, and of the film
 !> between them
 !>
-!> A wall of conductivity k [W/(m K)] and diffusivity kappa [m^2/s] that moves at u [m/s] under the heat q(x) [W/m^2]:
+!> A wall of conductivity k [W/(m K)] and diffusivity kappa [m^2/s] that moves at u [m/s] under the heat flux q(x) [W/m^2]:
 !>
 !>    rise(x) = 1/k sqrt(kappa/(pi u)) int q(x')/sqrt(x - x') dx',   x' < x                                            (1)
 !>
@@ -27,6 +27,7 @@ module ehl_wall_heat
    !> Maximum over s of int sqrt(1 - x^2)/sqrt(s - x) dx, x from -1 to s
    real(dp), parameter :: fast_integral = 2.18830_dp
 
+   !> Number of partial sums in `history`
    integer, parameter :: side_by_side = 16
 
    !> A row of equidistant nodes between two walls

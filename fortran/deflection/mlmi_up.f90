@@ -30,7 +30,7 @@ module ehl_mlmi_up
    !> Local corrections of one coarsening, even in both offsets. "Along" is the axis that is
    !> coarsened, "across" the other one.
    type :: stencil_t
-      !> Largest offset across
+      !> Maximum offset across
       integer :: width = 0
       !> For each offset across 0..width: number of pairs of odd (1, 3, ...) and of even
       !> (2, 4, ...) offsets along
@@ -166,7 +166,7 @@ contains
       allocate (self%even(0:maxval(self%n_even), 0:self%width), source=0.0_dp)
    end subroutine fit
 
-   !> Largest offset along the axis
+   !> Maximum offset along the axis
    pure integer function length(self)
       class(stencil_t), intent(in) :: self
       length = max(2*maxval(self%n_odd) - 1, 2*maxval(self%n_even))

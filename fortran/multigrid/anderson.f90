@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Anderson acceleration of multigrid cycles that stall or alternate between states (Anderson 1965; Walker & Ni 2011; for
 !> nonlinear multigrid Brune, Knepley, Smith & Tu 2015): with the state u = (P, H00) before a cycle, G(u) after it
-!> and f = G(u) - u, the next state is
+!> and the change f of P in the cycle, the next state is
 !>
 !>    G(u_k) - sum over j of g_j (G(u_j+1) - G(u_j)),   g = argmin |f_k - sum over j of g_j (f_j+1 - f_j)|,
 !>

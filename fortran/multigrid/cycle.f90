@@ -31,7 +31,7 @@ module ehl_cycle
       integer :: pre = 2, post = 1
       !> Residual (rms) of the finest level below which the remaining sweeps after the correction are skipped
       real(dp) :: enough = 0.0_dp
-      !> Largest change of the logarithm of a node's conductance in a sweep, for time steps and damped cycles
+      !> Maximum change of the logarithm of a node's conductance in a sweep, for time steps and damped cycles
       real(dp) :: max_log_change = usual_log_change
       !> Relaxation factors of a sweep and of the coarse-grid correction
       real(dp) :: relaxation_factor = 1.0_dp, correction_factor = 1.0_dp

@@ -17,7 +17,7 @@ module ehl_relaxation
    private
    public :: relax, usual_log_change
 
-   !> Largest conductance/mesh-size^2 in the neighbourhood of a distributive node, for a Newtonian and a shear-thinning lubricant.
+   !> Maximum conductance/mesh-size^2 in the neighbourhood of a distributive node, for a Newtonian and a shear-thinning lubricant.
    !> The conductance along Y counts: lines include the coupling along X, and only the coupling to other lines limits a change
    !> that is smooth along Y.
    real(dp), parameter :: switch = 0.1_dp, switch_thinning = 0.25_dp
@@ -39,7 +39,7 @@ contains
    subroutine relax(level, space, max_log_change, relaxation_factor)
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space
-      !> Largest change of the logarithm of a node's conductance; applied in time steps, or if it is below `usual_log_change`
+      !> Maximum change of the logarithm of a node's conductance; applied in time steps, or if it is below `usual_log_change`
       real(dp), intent(in) :: max_log_change
       !> Relaxation factor of all changes
       real(dp), intent(in) :: relaxation_factor

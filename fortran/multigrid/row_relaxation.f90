@@ -32,7 +32,7 @@ contains
    subroutine relax_row(level, space, max_log_change, relaxation_factor)
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space
-      !> Largest change of the logarithm of a node's conductance
+      !> Maximum change of the logarithm of a node's conductance
       real(dp), intent(in) :: max_log_change
       !> Factor of all changes in addition to `omega`
       real(dp), intent(in) :: relaxation_factor

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Work space of a level for relaxation and coarse problem
+!> Work space of a level for the relaxation and the coarse problem
 module ehl_workspace
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
@@ -16,7 +16,7 @@ module ehl_workspace
    integer, parameter :: row_reach = 15, row_below = row_reach + 2, row_above = row_reach + 1
    !> Numbers per node from which the line systems are assembled
    integer, parameter :: line_fields = 10
-   !> Lines relaxed side by side
+   !> Number of lines relaxed simultaneously
    integer, parameter :: line_width = 8
 
    !> Cells with a larger hy/hx are long

@@ -8,7 +8,7 @@ module ehl_elliptic
 
 contains
 
-   !> R_F(0, x, y) for x, y > 0: pi/2 over the arithmetic-geometric mean of their roots (DLMF 19.22.8)
+   !> R_F(0, x, y) for x, y > 0: pi/2 over the arithmetic-geometric mean of their square roots (DLMF 19.22.8)
    pure real(dp) function complete_rf(x, y)
       real(dp), intent(in) :: x, y
       real(dp) :: a, g, mean

@@ -2,7 +2,8 @@
 !> Flow factors (flow_factors.f90) of several nodes at once, each by the cheapest sufficient formula: 1 where they differ
 !> from 1 by less than `negligible`, second order in the gradient where its error is below `tolerance`, else by integrals
 !> through the film. The latter start from the mean stress of second order; Newton steps correct it, and a first-order
-!> correction of the factors for the remaining residual has an error of its square. If that is too large flow_factors.f90 iterates.
+!> correction of the factors for the remaining residual leaves an error of the square of that residual. If the error is too large,
+!> flow_factors.f90 iterates.
 module ehl_factor_rows
    use ehl_flow_factors, only: exact_factors, factors_t, half, min_gradient, upper, weight
    use ehl_kinds, only: dp
@@ -16,7 +17,7 @@ module ehl_factor_rows
    !> Number of evaluations of the integrals before the iteration; relative error of B whose square is negligible
    integer, parameter :: passes = 3
    real(dp), parameter :: enough = 1.0e-3_dp
-   !> The divided difference of F between two squared stresses closer than this is replaced by the mean of its slopes
+   !> The divided difference of F between two squared stresses closer than this is replaced by the mean of its derivatives
    real(dp), parameter :: close = 1.0e-4_dp
 
    !> factors_t (flow_factors.f90) by node
@@ -70,10 +71,10 @@ contains
       type(thinning_t), intent(in) :: law
       !> As in `find_factors`
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
-      real(dp) :: rise
+      real(dp) :: coefficient
 
-      rise = 0.15_dp*law%curvature()
-      flows_newtonian = .not. any(rise*(20.0_dp*b**2 + s(:size(b), 1)**2 + s(:size(b), 2)**2) >= negligible)
+      coefficient = 0.15_dp*law%curvature()
+      flows_newtonian = .not. any(coefficient*(20.0_dp*b**2 + s(:size(b), 1)**2 + s(:size(b), 2)**2) >= negligible)
    end function flows_newtonian
 
    !> Factors at a small gradient: to second order in S, their derivative with respect to the sliding to zeroth order
@@ -81,7 +82,7 @@ contains
       type(thinning_t), intent(in) :: law
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
       type(factor_rows_t), intent(inout) :: rows
-      !> F and its slopes in tau^2 at the stress t of the sliding alone
+      !> Stress t in sliding alone; F and its derivatives with respect to tau^2 there
       real(dp) :: t(most), f(most, 0:slopes)
       !> t^2, S^2; 3 f1 + 2 f2 t^2; tau_mx/t - 1, and phi minus its value by sliding alone, each over the squares of S
       real(dp) :: q, sx, sy, g, less_x, less_y, xx, xy, yx, yy, phi_x, phi_y, error, is_eyring

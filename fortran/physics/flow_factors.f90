@@ -32,8 +32,8 @@ module ehl_flow_factors
    real(dp), parameter :: upper(half) = 0.5_dp*[0.238619186083196909_dp, 0.661209386466264514_dp, 0.932469514203152028_dp]
    real(dp), parameter :: weight(half) = 0.5_dp*[0.467913934572691047_dp, 0.360761573048138608_dp, 0.171324492379170345_dp]
    real(dp), parameter :: z(points) = [upper, -upper], w(points) = [weight, weight]
-   !> Maximum number of Newton steps for the mean stress; relative error of B below which one last step follows, which leaves
-   !> the square of it
+   !> Maximum number of Newton steps for the mean stress; relative error of B below which one last step follows, which reduces
+   !> the error to its square
    integer, parameter :: max_steps = 200
    real(dp), parameter :: tolerance = 1.0e-7_dp
    !> A step is halved if the slope at its end has the opposite sign and more than this fraction of the magnitude at its start
@@ -43,7 +43,7 @@ module ehl_flow_factors
    !> The divided difference of F between two stresses closer than this, absolutely or relative to their sum, is replaced by
    !> the mean of its slopes
    real(dp), parameter :: close = 1.0e-4_dp
-   !> Smallest component of S, so that derivatives are not 0/0; it changes the factors by its square only
+   !> Minimum component of S, so that derivatives are not 0/0; it changes the factors by its square only
    real(dp), parameter :: min_gradient = 1.0e-4_dp
 
    !> Stress along X and along Y at the points of a film, its square, F and its slope (thinning.f90)

@@ -71,8 +71,8 @@ contains
       dynamic_viscosity = line%dynamic(temperature, density, expansion)
    end function dynamic_viscosity
 
-   !> Viscosity [Pa s] of a line. NaN where the linear density is not positive, above 1000 degC, which only
-   !> rough estimates of the heat reach.
+   !> Viscosity [Pa s] of a line; 0 where the linear density is not positive, at more than about 1000 degC, which only rough
+   !> estimates of the heat reach
    pure real(dp) function dynamic_of_line(line, temperature, density, expansion) result(viscosity)
       class(walther_t), intent(in) :: line
       real(dp), intent(in) :: temperature, density, expansion

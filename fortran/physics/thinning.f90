@@ -19,7 +19,7 @@ module ehl_thinning
    integer, parameter :: eyring = 1, carreau = 2
    !> Below this stress the Eyring law is evaluated as a series
    real(dp), parameter :: series_below = 0.5_dp
-   !> Maximum number of steps of an iteration; error below which one last step follows, which leaves the cube of it
+   !> Maximum number of steps of an iteration; error below which one last step follows, which reduces the error to its cube
    integer, parameter :: max_steps = 50
    real(dp), parameter :: enough = 1.0e-4_dp
    !> Maximum number of films evaluated at once

@@ -30,7 +30,7 @@ module ehl_plan
    private
    public :: plan_t, make_plan
 
-   !> Largest number of time steps of a rough surface: by default, and if the case sets time.steps
+   !> Maximum number of time steps of a rough surface: by default, and if the case sets time.steps
    integer, parameter :: max_steps = 100000, max_steps_given = 1000000000
 
    !> Aspect ratio Y/X of the dry contact above which a restart is allowed on any grid, since cycles may alternate between two
@@ -77,7 +77,7 @@ module ehl_plan
       logical :: extrapolates = .false.
       !> Scheme of the wedge and squeeze terms in time steps
       integer :: scheme = wedge_narrow
-      !> Whether the time steps begin when the roughness comes near the contact
+      !> Whether the time steps begin when the roughness approaches the contact
       logical :: skip_start = .true.
       !> Whether the time steps begin with the contact filled with roughness, from a prediction
       logical :: predicted_start = .false.
@@ -85,7 +85,7 @@ module ehl_plan
       character(len=:), allocatable :: fallback_reason
       !> Whether to repeat the run on the next coarser grid, for the grid error of the friction ratio
       logical :: coarse_run = .false.
-      !> Relative change of the mean friction ratio at which to stop; largest number of periods; exact number of steps
+      !> Relative change of the mean friction ratio at which to stop; maximum number of periods; exact number of steps
       real(dp) :: time_tolerance = 1.0e-3_dp
       integer :: max_periods = 0, steps = 0
       !> Time between frames; 0: no frames
@@ -96,7 +96,7 @@ module ehl_plan
       procedure :: has_steps
    end type plan_t
 
-   !> Largest unresolved fraction of the variance on the coarser of two grids from which the friction ratio is extrapolated
+   !> Maximum unresolved fraction of the variance on the coarser of two grids from which the friction ratio is extrapolated
    real(dp), parameter :: max_unresolved_fraction = 1.0e-6_dp
 
    ! in plan_cycles.f90

@@ -53,7 +53,7 @@ contains
       call check_memory(what, needed, status)
    end subroutine check_need
 
-   !> Smallest and largest number of frames
+   !> Minimum and maximum number of frames
    subroutine frames_kept(plan, frames_min, frames_max)
       type(plan_t), intent(in) :: plan
       real(dp), intent(out) :: frames_min, frames_max
@@ -62,7 +62,7 @@ contains
       frames_max = frames(plan, max_steps(plan))
    end subroutine frames_kept
 
-   !> Smallest number of time steps
+   !> Minimum number of time steps
    real(dp) function steps(plan)
       type(plan_t), intent(in) :: plan
 
@@ -73,7 +73,7 @@ contains
       if (plan%steps == 0) steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start)
    end function steps
 
-   !> Largest number of time steps, if the mean does not settle
+   !> Maximum number of time steps, if the mean does not settle
    real(dp) function max_steps(plan)
       type(plan_t), intent(in) :: plan
 
@@ -85,7 +85,7 @@ contains
                                                      max_periods(plan))
    end function max_steps
 
-   !> Largest number of periods of a transient run
+   !> Maximum number of periods of a transient run
    pure real(dp) function max_periods(plan)
       type(plan_t), intent(in) :: plan
 

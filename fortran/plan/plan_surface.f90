@@ -28,7 +28,7 @@ module ehl_plan_surface
 
 contains
 
-   !> Make the surfaces of a case. If one is rough, the other without height is smooth.
+   !> Make the surfaces of a case. If one is rough, the other one is smooth unless its height is given.
    subroutine make_surfaces(input, scales, surfaces, status, heights, second_heights)
       type(case_t), intent(in) :: input
       type(scales_t), intent(in) :: scales

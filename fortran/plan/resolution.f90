@@ -12,7 +12,7 @@ module ehl_resolution
    private
    public :: has_solution, points_for_inlet, points_for_solution, why_no_solution
 
-   !> Largest half of the a-priori error of H_min at which the discrete equations have a solution (docs/robustness.md)
+   !> Maximum of half the a-priori error of H_min at which the discrete equations have a solution (docs/robustness.md)
    real(dp), parameter :: max_unresolved = 0.6_dp
    !> Aspect ratio Y/X below which hy = hx/4 can be too coarse at the ends, and a y_extent of an eighth of the length of the domain
    !> is sufficient
@@ -58,7 +58,7 @@ contains
       points = grid%nx
    end function points_for_inlet
 
-   !> Probable reason of a missing solution: a coarse grid; or the ends of a narrow contact, for which half of hy, in a domain a
+   !> Probable reason for a missing solution: a coarse grid; or the ends of a narrow contact, for which half of hy, in a domain a
    !> quarter as wide, may be sufficient (docs/evidence/errors_ellipses); reason_none if neither applies
    pure integer function why_no_solution(contact, point, finest) result(reason)
       class(contact_t), intent(in) :: contact

@@ -9,7 +9,7 @@ module ehl_strip_grid
    private
    public :: make_strip
 
-   !> Largest number of rows of the finest grid
+   !> Maximum number of rows of the finest grid
    integer, parameter :: max_rows = 16384
 
 contains

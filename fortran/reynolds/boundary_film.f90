@@ -1,11 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Contact at a boundary film: lubricant on the surfaces that pressure does not squeeze out. With N(P) the
+!> Solid contact at a boundary film: lubricant on the surfaces that pressure does not squeeze out. With N(P) the
 !> left-hand side of the Reynolds equation (reynolds.f90) and H_b the boundary film at P = 0,
 !>
 !>    P >= 0,   N <= 0,   rho H >= H_b,   one of the three an equality at every node:
 !>
 !> cavitated (P = 0), flowing (N = 0) or touching (rho H = H_b). At touching nodes the boundary film
-!> supplies the mass defect of N. H_b is a mass per area: the boundary film is compressed as the lubricant is, and its mass
+!> supplies the mass defect of N. H_b is a mass per area: the boundary film is as compressible as the lubricant, and its mass
 !> does not change along a zone of touching nodes. With H >= H_b instead, mass would leave the first half of a contact and lift
 !> the second half by a factor of rho(P_max).
 !>
@@ -91,7 +91,7 @@ module ehl_boundary_film
 
    ! in multigrid/touching_nodes.f90
    interface
-      !> Largest conductance of the flowing nodes among each node of row j and its four neighbours, in columns 2 to nx-1
+      !> Maximum conductance of the flowing nodes among each node of row j and its four neighbours, in columns 2 to nx-1
       pure module subroutine max_flowing_conductance(self, p, eps, j, south, north, values)
          class(boundary_film_t), intent(in) :: self
          !> Pressure and conductance along Y, shape (nx, ny)
@@ -101,7 +101,7 @@ module ehl_boundary_film
          real(dp), contiguous, intent(inout) :: values(:)
       end subroutine max_flowing_conductance
 
-      !> Largest conductance of each column in the rows south, j and north, with zero conductance at touching nodes
+      !> Maximum conductance of each column in the rows south, j and north, with zero conductance at touching nodes
       pure module subroutine max_conductance_of_rows(self, eps, j, south, north, values)
          class(boundary_film_t), intent(in) :: self
          !> Shape (nx, ny)
@@ -111,7 +111,7 @@ module ehl_boundary_film
          real(dp), contiguous, intent(inout) :: values(:)
       end subroutine max_conductance_of_rows
 
-      !> Mark touching nodes of row j as distributive, also beside cavitated nodes
+      !> Mark touching nodes of row j for distributive changes, also beside cavitated nodes
       pure module subroutine mark_dipoles(self, p, j, dipole)
          class(boundary_film_t), intent(in) :: self
          !> Pressure; 1 where a node changes distributively, else 0; shape (nx)
@@ -377,7 +377,7 @@ contains
       if (self%active) values = values*(1.0_dp - self%touching(first:first + size(values) - 1, j))
    end subroutine zero_touching
 
-   !> Set the largest lift of a touching node; residual: that of a steady problem (rms), or 0
+   !> Set the maximum lift of a touching node; residual: that of a steady problem (rms), or 0
    pure subroutine set_lift(self, residual)
       class(boundary_film_t), intent(inout) :: self
       real(dp), intent(in) :: residual

@@ -11,10 +11,10 @@ module ehl_contact_results
    private
    public :: contact_results_t, measure, central_row, central_value, load_tolerance
 
-   !> Largest relative error of the force balance of a solution
+   !> Maximum relative error of the force balance of a solution
    real(dp), parameter :: load_tolerance = 1.0e-6_dp
 
-   !> Largest relative deficit of the boundary film at a node of a solution
+   !> Maximum relative deficit of the boundary film at a node of a solution
    real(dp), parameter :: film_tolerance = 1.0e-2_dp
 
    !> Results of one state. Dimensionless: films by a^2/R, pressure by p_h.

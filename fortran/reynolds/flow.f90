@@ -123,7 +123,7 @@ contains
       end associate
    end subroutine soften
 
-   !> Largest conductance along Y of each node of row j and its four neighbours, in columns 2 to nx-1
+   !> Maximum conductance along Y of each node of row j and its four neighbours, in columns 2 to nx-1
    pure subroutine max_neighbour_conductance(self, j, south, north, values)
       class(flow_t), intent(in) :: self
       !> The row, and those below and above it

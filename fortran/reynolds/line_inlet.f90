@@ -4,8 +4,8 @@
 !>
 !>    dI/dX = lambda_bar (H - q)/H^3,   H(X) = H_1 + (X^2 - X_1^2)/2 - (1/2) ln(X/X_1),   P = -ln(1 - alpha_bar I)/alpha_bar
 !>
-!> with the border at X_1; the last term of H is the deflection by the load as a line load. With u = X_1/X the pressure at
-!> the border and the load beyond it are integrals over 0 < u < 1 of smooth functions.
+!> with the border at X_1; the last term of H is the deflection caused by the load, taken as a line load. With u = X_1/X the
+!> pressure at the border and the load beyond it are integrals over 0 < u < 1 of smooth functions.
 module ehl_line_inlet
    use ehl_flow, only: dir_x
    use ehl_kinds, only: dp
@@ -24,7 +24,7 @@ contains
       type(level_t), intent(inout) :: level
       !> Load of the contact, int P dX
       real(dp), intent(in) :: load
-      real(dp) :: x, u, film, rise, pressure, beyond, flow, level_of(1), slope(1)
+      real(dp) :: x, u, film, increment, pressure, beyond, flow, log_viscosity(1), slope(1)
       integer :: i, k
 
       associate (grid => level%grid)
@@ -36,11 +36,11 @@ contains
          do k = 1, points
             u = (k - 0.5_dp)/points
             film = level%h(1, 1) + 0.5_dp*x**2*(1.0_dp/u**2 - 1.0_dp) + 0.5_dp*log(u)
-            rise = (film - flow)/film**3*x/(u**2*level%flow%inverse_speed*points)
-            pressure = pressure + rise
-            beyond = beyond + rise*x*(1.0_dp/u - 1.0_dp)
+            increment = (film - flow)/film**3*x/(u**2*level%flow%inverse_speed*points)
+            pressure = pressure + increment
+            beyond = beyond + increment*x*(1.0_dp/u - 1.0_dp)
          end do
-         call level%lubricant%log_viscosity([0.0_dp], level_of, slope)
+         call level%lubricant%log_viscosity([0.0_dp], log_viscosity, slope)
          ! the logarithm is not defined if the domain is far too small: see line_domain_error in contact/line_domain.f90
          if (slope(1)*pressure > 0.0_dp .and. slope(1)*pressure < 1.0_dp) pressure = -log(1.0_dp - slope(1)*pressure)/slope(1)
          level%p(1, :) = pressure

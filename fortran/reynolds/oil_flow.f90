@@ -8,13 +8,13 @@ module ehl_oil_flow
    private
    public :: oil_flow_t, content_row, measure_flow, flow_tolerance, leaving, oil_names
 
-   !> Largest imbalance of a solution
+   !> Maximum imbalance of a solution
    real(dp), parameter :: flow_tolerance = 1.0e-6_dp
    !> Columns of a history
    character(len=*), parameter :: oil_names(7) = [character(len=13) :: "oil_layer", "oil_in", "oil_out", "oil_at_sides", &
                                                   "oil_content", "oil_gain", "oil_imbalance"]
 
-   !> Flows per time, int rho H dY at the mean velocity [a^3/R]; of a line contact per length
+   !> Flows per time, int rho H dY at the mean velocity [a^3/R]; of a line contact per unit length
    type :: oil_flow_t
       real(dp) :: enters = 0.0_dp, leaves = 0.0_dp, sides = 0.0_dp
       !> Imbalance over the flow that enters; 0 where the inlet is flooded. In a time step over the flow that enters at the mean

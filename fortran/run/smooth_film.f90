@@ -18,7 +18,7 @@ module ehl_smooth_film
    private
    public :: known_film, film_by_finer_grids
 
-   !> Largest relative grid error for the extrapolation
+   !> Maximum relative grid error for the extrapolation
    real(dp), parameter :: film_error = 0.02_dp
 
 contains

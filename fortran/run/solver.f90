@@ -24,7 +24,7 @@ module ehl_solver
    private
    public :: solver_t, field_length, solve_phase
 
-   !> Longest name of a field
+   !> Maximum length of the name of a field
    integer, parameter :: field_length = 32
 
    !> Run of the case, and the run on the next coarser grid for the grid error of the friction ratio
@@ -62,7 +62,7 @@ module ehl_solver
          class(solver_t), intent(inout) :: self
       end subroutine begin_coarse
 
-      !> Complete the run on the next coarser grid. Its failure is no failure of this run.
+      !> Complete the run on the next coarser grid. A failure of it does not fail this run.
       module subroutine solve_coarse(self, observer, leave)
          class(solver_t), intent(inout) :: self
          class(observer_t), intent(inout) :: observer

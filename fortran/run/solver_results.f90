@@ -20,7 +20,7 @@ submodule (ehl_solver) ehl_solver_results
 
    !> Fractions of a variance below this are rounding errors
    real(dp), parameter :: rounding = 1.0e-14_dp
-   !> Largest relative change of mu_ratio between two grids that converge; and its largest increase with a single wave or feature,
+   !> Maximum relative change of mu_ratio between two grids that converge; and its maximum increase with a single wave or feature,
    !> which is the same on both grids: a larger increase is due to unresolved pressure peaks
    real(dp), parameter :: max_change = 0.5_dp, max_increase = 0.05_dp
 

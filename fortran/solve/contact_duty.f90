@@ -125,8 +125,8 @@ contains
       place = [level%grid%x(at(1)), level%grid%y(at(2))]
    end subroutine find_minimum
 
-   !> Coefficient of friction, its power, and flash temperature of walls in a steady state. Not known where the Newtonian stress
-   !> exceeds the limit up to which oils are Newtonian.
+   !> Coefficient of friction, frictional power, and flash temperature of walls in a steady state. Not known where the Newtonian
+   !> stress exceeds the limit up to which oils are Newtonian.
    subroutine find_friction(self, level, mu, power, flash)
       class(contact_run_t), intent(in) :: self
       type(level_t), intent(in) :: level

@@ -6,7 +6,7 @@ submodule (ehl_contact_run) ehl_contact_heat
    use ehl_status, only: ehl_no_memory
    implicit none (type, external)
 
-   !> Number of steps per period with heating computed: the reduction of friction changes slowly
+   !> Number of time steps per period at which the heating is computed: the reduction of friction changes slowly
    integer, parameter :: samples = 32
 
 contains

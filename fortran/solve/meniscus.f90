@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Position of the meniscus of a line contact with a given oil layer. Without side flow the flow through the contact equals that of
-!> the layer. Just below the flooded flow it hardly depends on the meniscus, so that a free meniscus moves from cycle to cycle. Here
-!> it is fixed while the contact is solved as with `inlet.position`; the resulting flow gives the next position:
+!> the layer. A flow just below that of a flooded contact hardly depends on the position of the meniscus, so that a free meniscus
+!> moves from cycle to cycle. Here it is fixed while the contact is solved as with `inlet.position`; the resulting flow gives the
+!> next position:
 !>
 !>    node k with P(k) = 0, and the mass defect s downstream of it, 0 <= s <= (G(k) - layer)/hx, such that the flow is the layer's
 !>
@@ -24,7 +25,7 @@ module ehl_meniscus
 
    type :: meniscus_t
       logical :: active = .false.
-      !> Node k; s over its upper bound; the upper bound [as the Reynolds operator]
+      !> Node k; s over its upper bound; the upper bound, in the units of the Reynolds operator
       integer :: node = 1
       real(dp) :: fraction = 0.0_dp
       real(dp), private :: s_max = 0.0_dp
@@ -48,7 +49,7 @@ module ehl_meniscus
 
 contains
 
-   !> Start on a level, from the node on the next coarser one if it was solved
+   !> Start on a level, from the node of the solution on the next coarser level if there is one
    pure subroutine begin(self, from_coarser)
       class(meniscus_t), intent(inout) :: self
       logical, intent(in) :: from_coarser
@@ -86,21 +87,21 @@ contains
       !> Flow through the contact
       real(dp), intent(in) :: flow
       logical, intent(out) :: moved
-      real(dp) :: off, change
+      real(dp) :: deviation, change
 
       moved = .false.
-      off = flow - level%supply%layer(1)
+      deviation = flow - level%supply%layer(1)
       change = abs(flow - self%flow)
       self%flow = flow
       self%cycles = self%cycles + 1
-      if (self%cycles < min_cycles .or. change > settled_change*abs(off)) return
-      if (abs(off) <= 0.5_dp*flow_tolerance*level%supply%layer(1)) return
+      if (self%cycles < min_cycles .or. change > settled_change*abs(deviation)) return
+      if (abs(deviation) <= 0.5_dp*flow_tolerance*level%supply%layer(1)) return
       ! flooded
-      if (self%node == 1 .and. off < 0.0_dp .and. .not. self%fraction > 0.0_dp) return
+      if (self%node == 1 .and. deviation < 0.0_dp .and. .not. self%fraction > 0.0_dp) return
       if (self%high == self%low + 1 .and. self%low > 0) then
-         call self%search_fraction(off)
+         call self%search_fraction(deviation)
       else
-         call self%search_node(level, off)
+         call self%search_node(level, deviation)
       end if
       self%cycles = 0
       moved = .true.
@@ -108,17 +109,17 @@ contains
    end subroutine follow
 
    !> Choose the next node; once two neighbours bracket the solution, the upstream one, with s
-   subroutine search_node(self, level, off)
+   subroutine search_node(self, level, deviation)
       class(meniscus_t), intent(inout) :: self
       type(level_t), intent(in) :: level
-      real(dp), intent(in) :: off
+      real(dp), intent(in) :: deviation
 
-      if (off > 0.0_dp) then
+      if (deviation > 0.0_dp) then
          self%low = self%node
-         self%excess(1) = off
+         self%excess(1) = deviation
       else
          self%high = self%node
-         self%excess(2) = off
+         self%excess(2) = deviation
       end if
       if (self%low == 0) then
          self%node = max(1, self%node - self%step)
@@ -144,14 +145,14 @@ contains
    end subroutine pin
 
    !> Next value of s by the Illinois method; too narrow a bracket restarts the search
-   subroutine search_fraction(self, off)
+   subroutine search_fraction(self, deviation)
       class(meniscus_t), intent(inout) :: self
-      real(dp), intent(in) :: off
+      real(dp), intent(in) :: deviation
       integer :: side
 
-      side = merge(1, 2, off > 0.0_dp)
+      side = merge(1, 2, deviation > 0.0_dp)
       self%fractions(side) = self%fraction
-      self%excess(side) = off
+      self%excess(side) = deviation
       if (self%stayed == 3 - side) self%excess(3 - side) = 0.5_dp*self%excess(3 - side)
       self%stayed = 3 - side
       if (self%fractions(2) - self%fractions(1) <= same) then

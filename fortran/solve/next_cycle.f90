@@ -15,11 +15,11 @@ submodule (ehl_smooth_contact) ehl_next_cycle
    integer, parameter :: meniscus_cycles = 10
    !> Cycle limit of a level with a reduced shear-thinning law
    integer, parameter :: softened_cycles = 20
-   !> Smallest relative algebraic error that a reduced cycle reaches; a smaller one would cost another cycle
+   !> Minimum relative algebraic error that a reduced cycle reaches; a smaller one would cost another cycle
    real(dp), parameter :: reduced_error = 3.0e-4_dp
    !> The value of `near_solution` in the last attempt at a wide contact
    real(dp), parameter :: near_solution_wide = 0.5_dp
-   !> Largest numbers that count as few cycles: of a level that started from a coarser one, and from the Hertz pressure
+   !> Maximum numbers that count as few cycles: of a level that started from a coarser one, and from the Hertz pressure
    integer, parameter :: max_from_coarser = 2, max_from_hertz = 3
 
 contains

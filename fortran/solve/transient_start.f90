@@ -54,7 +54,7 @@ contains
          self%mass_content(:, :, k) = level%rho*(level%h - self%rr)
       end do
       if (level%supply%active) then
-         ! the steady line may have been solved with a fixed meniscus
+         ! the steady line contact may have been solved with a fixed meniscus
          call level%supply%setup(level%grid%hx, level%grid%ny, duty%layer)
          do k = 1, level%grid%ny
             call content_row(level, k, self%mass_content(:, k, 1))

@@ -26,7 +26,7 @@ module ehl_transient_state
    private
    public :: transient_t
 
-   !> Largest relative errors of the force balance that scaling the pressure may correct: in general, and in lines. The larger one
+   !> Maximum relative errors of the force balance that scaling the pressure may correct: in general, and in lines. The larger one
    !> would remove the second order of small increases of friction on circles (tests/cases/test_two_surfaces.py), and bias the
    !> film under a duty.
    real(dp), parameter :: small_load_error = 1.0e-5_dp, small_line_error = 1.0e-4_dp
@@ -99,7 +99,7 @@ module ehl_transient_state
          class(contact_t), intent(in) :: contact
          class(moving_surfaces_t), intent(inout) :: surfaces
          type(duty_t), intent(in) :: duty
-         !> Whether to begin when the roughness comes near the contact, instead of when it enters the domain
+         !> Whether to begin when the roughness approaches the contact, instead of when it enters the domain
          logical, intent(in) :: skip
          real(dp), intent(in) :: friction_smooth
          type(status_t), intent(inout) :: status

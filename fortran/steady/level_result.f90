@@ -24,7 +24,7 @@ module ehl_level_result
       real(dp) :: residual = 0.0_dp
    end type level_result_t
 
-   !> Largest relative discretisation error assumed to be of order 2, which two grids cannot show (Roache 1994; the factor for
+   !> Maximum relative discretisation error assumed to be of order 2, which two grids cannot show (Roache 1994; the factor for
    !> order 1 is 3 times that for order 2). At errors of 8 and 15 % on 513 nodes the true errors were 1.1 times those for order 2
    !> (kappa = 1, M = 5233, L = 4.4; kappa = 6.6, M by R_x = 76543, L = 5.4)
    real(dp), parameter :: max_second_order = 0.05_dp

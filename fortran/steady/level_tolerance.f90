@@ -11,14 +11,14 @@ module ehl_level_tolerance
    private
    public :: accurate, share_counts, has_coarser, has_target, is_end, residual_tolerance, allowed_errors
 
-   !> Smallest relative discretisation error assumed, since two levels may agree by chance
+   !> Minimum relative discretisation error assumed, since two levels may agree by chance
    real(dp), parameter :: min_error = 2.0e-5_dp
    !> Algebraic error of the load share at which a level ends once the films have converged
    real(dp), parameter :: share_tolerance = 1.0e-3_dp
    !> Margin of the error bound residual_share_error over the true error of the load share, which is mostly below a fifth of it
    !> (docs/evidence/inlet)
    real(dp), parameter :: share_margin = 5.0_dp
-   !> Largest residual of the film (rms; the wedge term is of order 1 in the inlet) of a converged solution
+   !> Maximum residual of the film (rms; the wedge term is of order 1 in the inlet) of a converged solution
    real(dp), parameter :: residual_tolerance = 2.0e-3_dp
    !> Allowed relative algebraic error on the first grid, where no discretisation error is known yet; and if at least two finer
    !> grids follow, so that it only gives a first approximation

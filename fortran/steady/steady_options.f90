@@ -8,7 +8,7 @@ module ehl_steady_options
    private
    public :: steady_options_t, end_rule_t, max_error, rule_of_circles, rule_of_ellipses, rule_of_others, rule_of_rollers
 
-   !> Largest relative algebraic error of a result on any grid
+   !> Maximum relative algebraic error of a result on any grid
    real(dp), parameter :: max_error = 2.0e-3_dp
 
    !> Options of the smooth contact
@@ -46,7 +46,7 @@ module ehl_steady_options
 
    !> Convergence rule of a level
    type :: end_rule_t
-      !> Largest relative error of the force balance that scaling the pressure may correct; its largest effect on the film over the
+      !> Maximum relative error of the force balance that scaling the pressure may correct; its maximum effect on the film over the
       !> allowed algebraic error
       real(dp) :: small_load_error, load_fraction
       !> Whether the reduction of the residual limits the estimated reduction, and the algebraic error includes that of the load
@@ -55,8 +55,8 @@ module ehl_steady_options
       real(dp) :: min_reduction = 0.3_dp
    end type end_rule_t
 
-   !> In shear-thinning flows and ellipses the second cycle often gives the accuracy except for the load or a change that is small
-   !> by chance; the rule of Newtonian circles would reduce their error to 1/500 of the allowed one
+   !> In shear-thinning flows and ellipses the second cycle often reaches the accuracy, but not the load tolerance of Newtonian
+   !> circles, or its change is small by chance; the rule of Newtonian circles would reduce the error to 1/500 of the allowed one
    type(end_rule_t), parameter :: rule_of_circles = end_rule_t(3.0e-6_dp, 0.1_dp, .false.), &
                                   rule_of_others = end_rule_t(1.0e-5_dp, 0.25_dp, .true.), &
                                   !> When change and residual both decrease below 0.2 of the last, the next change is 0.15 to

@@ -181,7 +181,7 @@ contains
       if (self%count() > 1 .and. all(variance > 0.0_dp)) unresolved_fraction = sum(variance*fraction)/sum(variance)
    end function unresolved_fraction
 
-   !> Largest fraction over the surfaces of the variance in waves with fewer nodes per period than `nodes`, see surface_t
+   !> Maximum fraction over the surfaces of the variance in waves with fewer nodes per period than `nodes`, see surface_t
    pure real(dp) function max_unresolved(self, grid, nodes)
       class(rough_surfaces_t), intent(in) :: self
       type(grid_t), intent(in) :: grid

@@ -2,7 +2,7 @@
 !> Film and pressure waves of a rough tile at the points of a contact: the inner loop of the prediction.
 !>
 !> Driven waves move with the tile; free waves are interpolated in a finer table, at positions that follow from the
-!> slip, the same for all lines or per line. The first dimension of a tile and of a sum: film reduction and pressure increase.
+!> slip, the same for all lines or per line. The first dimension of a tile and of a sum: loss of film and pressure increase.
 module ehl_wave_sum
    use, intrinsic :: iso_fortran_env, only: int32, real32, real64
    implicit none (type, external)
@@ -52,8 +52,8 @@ contains
       end do
    end subroutine add_between
 
-   !> Add tiles interpolated between row low(j, i) - shift and the next; first dimension 1 of low and between: the same for
-   !> all lines. beside(:, j, :) is added to the stations, and the sum is multiplied by `expansion`
+   !> Add tiles interpolated between row low(j, i) - shift and the next; a first dimension of 1 of low and between: the
+   !> same for all lines. beside(:, j, :) is added to the sum over the stations, and the result is multiplied by `expansion`
    subroutine add_free(tile, beside, low, columns, between, weight, expansion, shift, total)
       real(real32), intent(in), contiguous :: tile(:, 0:, 0:, :), beside(:, :, 0:)
       real(real32), intent(in), contiguous :: between(:, :), weight(:, :), expansion(:, :)
@@ -114,9 +114,9 @@ contains
       end do
    end subroutine add_polynomials
 
-   !> Film of the smooth contact, on nodes smooth(y, x), with its edge moved outwards: film(place(p)), from 0, is the film at
-   !> point x(p), y(p) moved towards the centre, all in nodes from the first one, by the fraction of its distance
-   !> weight(1, p) moved(edge(p)) + weight(2, p) moved(edge(p) + 1); `moved` is periodic
+   !> Film of the smooth contact, smooth(y, x) at the nodes, with its edge moved outwards: film(place(p)), counted from 0, is the
+   !> smooth film at the point x(p), y(p) after a displacement towards the centre by the fraction weight(1, p) moved(edge(p)) +
+   !> weight(2, p) moved(edge(p) + 1) of its distance from it. Coordinates are in nodes from the first one; `moved` is periodic.
    subroutine moved_film(smooth, centre, x, y, edge, weight, moved, place, film)
       real(real64), intent(in), contiguous :: smooth(0:, 0:), centre(:), x(:), y(:), weight(:, :), moved(0:)
       integer(int32), intent(in), contiguous :: edge(:), place(:)

@@ -15,7 +15,7 @@ module ehl_duty
    !> Times before the table: in which the quantities change from the case to the first row, and in which the film adapts to it
    !> [a/u of the first row]
    real(dp), parameter :: ramp = 2.0_dp, follow = 4.0_dp
-   !> Smallest mean velocity of the first row over that of the case for which time to adapt is added
+   !> Minimum mean velocity of the first row over that of the case for which time to adapt is added
    real(dp), parameter :: at_rest = 0.05_dp
    !> Relative difference below which values are equal
    real(dp), parameter :: same = 1.0e-12_dp
@@ -249,7 +249,7 @@ contains
       reverses = any(self%values(:, duty_u1) + self%values(:, duty_u2) < 0.0_dp)
    end function reverses
 
-   !> Largest mean velocity over that of the case
+   !> Maximum mean velocity over that of the case
    pure real(dp) function max_speed(self)
       class(duty_t), intent(in) :: self
       max_speed = maxval(abs(0.5_dp*(self%values(:, duty_u1) + self%values(:, duty_u2))))

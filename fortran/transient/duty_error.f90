@@ -86,7 +86,7 @@ contains
                   + factors(3)*self%films(:, j, 3))
    end function added
 
-   !> Largest relative error of the film added by a step within the contact along row j
+   !> Maximum relative error of the film added by a step within the contact along row j
    pure real(dp) function max_added(self, x, film, steps, half_width, j)
       class(duty_error_t), intent(in) :: self
       real(dp), intent(in) :: x(:), film(:), steps(films_before), half_width
@@ -120,7 +120,7 @@ contains
       end do
    end subroutine add
 
-   !> Largest error in row j up to node i, since errors may move faster or slower than the mean velocity
+   !> Maximum error in row j up to node i, since errors may move faster or slower than the mean velocity
    pure real(dp) function upstream(self, i, j)
       class(duty_error_t), intent(in) :: self
       integer, intent(in) :: i, j

@@ -7,11 +7,11 @@ module ehl_duty_steps
    private
    public :: duty_steps_t, state_size
 
-   !> Smallest speed, over the largest, from which the step is computed
+   !> Minimum speed, over the maximum, from which the step is computed
    real(dp), parameter :: min_speed = 0.1_dp
-   !> Largest change of load, curvature, viscosity, layer (of the larger value) and of mean velocity (of the largest) in a step
+   !> Maximum change of load, curvature, viscosity, layer (of the larger value) and of mean velocity (of the maximum) in a step
    real(dp), parameter :: max_change = 0.1_dp
-   !> Largest ratio of a step to the previous one; above 2.4 BDF2 is unstable
+   !> Maximum ratio of a step to the previous one; above 2.4 BDF2 is unstable
    real(dp), parameter :: growth = 1.5_dp
    !> Maximum number of halvings of a step that does not converge, and of one with too large an error
    integer, parameter :: max_cuts = 8, max_error_cuts = 5
@@ -20,7 +20,7 @@ module ehl_duty_steps
    real(dp), parameter :: min_fraction = 0.05_dp
    !> Time in which the film passes through the contact and the errors of its steps add up [a/u]
    real(dp), parameter :: transit = 2.0_dp
-   !> Largest step with a target error, over that from the mesh size
+   !> Maximum step with a target error, over that from the mesh size
    real(dp), parameter :: max_step_factor = 4.0_dp
    !> Size of the saved state
    integer, parameter :: state_size = 5

@@ -198,7 +198,7 @@ contains
       at = values(k) + (position - k)*(values(k + 1) - values(k))
    end function at
 
-   !> Smallest and largest value in the averaging window
+   !> Minimum and maximum value in the averaging window
    pure function extremes(self) result(range)
       class(friction_mean_t), intent(in) :: self
       real(dp) :: range(2)
@@ -214,7 +214,7 @@ contains
       first_of_mean = max(1, self%n - int(self%window()/self%time_step))
    end function first_of_mean
 
-   !> Largest difference between the last mean and the earlier ones; of a mean over many periods half of the largest difference to
+   !> Maximum difference between the last mean and the earlier ones; of a mean over many periods half of the maximum difference to
    !> the means over its first, middle and last half, since the error decreases with the length of the mean
    pure real(dp) function change(self)
       class(friction_mean_t), intent(in) :: self
@@ -259,7 +259,7 @@ contains
       settled = self%change() <= tolerance*scale + self%window_error()
    end function settled
 
-   !> Error of a mean over a window that is no common period of two surfaces. The worst case is a product of waves of which the
+   !> Error of a mean over a window that is not a common period of two surfaces. The worst case is a product of waves of which the
    !> window holds 1 - m or 1 + m periods, with the mismatch m. At most sin(pi m)/(pi (1 - m)) of the amplitude remains in the
    !> mean, which is less than m times the range for m up to a quarter.
    pure real(dp) function window_error(self)

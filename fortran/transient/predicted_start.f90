@@ -32,7 +32,7 @@ contains
    real(dp) function steps_needed(surfaces, time_step, skip, filled, periods)
       class(moving_surfaces_t), intent(in) :: surfaces
       real(dp), intent(in) :: time_step
-      !> Whether the steps before the roughness comes near the contact are skipped; whether it fills the contact at the start
+      !> Whether the steps before the roughness approaches the contact are skipped; whether it fills the contact at the start
       logical, intent(in) :: skip, filled
       !> Periods after which the run ends if its mean has not settled; if present, the steps until then
       real(dp), intent(in), optional :: periods

@@ -10,9 +10,9 @@ module ehl_step_accuracy
    private
    public :: step_accuracy_t, step_tolerance, max_tolerance_ratio
 
-   !> Smallest grid error of mu_r/mu_s over |mu_r/mu_s - 1| times the relative error of the smooth friction
+   !> Minimum grid error of mu_r/mu_s over |mu_r/mu_s - 1| times the relative error of the smooth friction
    real(dp), parameter :: min_error_fraction = 0.25_dp
-   !> Smallest increase assumed in steps that belong to no mean
+   !> Minimum increase assumed in steps that belong to no mean
    real(dp), parameter :: min_increase = 0.3_dp
    !> Time constant of the rms of the increase [steps]
    real(dp), parameter :: averaging_steps = 64.0_dp
@@ -20,7 +20,7 @@ module ehl_step_accuracy
    integer, parameter :: measured_steps = 30
    !> Decay of the largest sensitivity with each measurement
    real(dp), parameter :: decay = 0.9_dp
-   !> Largest tolerance over `strict`
+   !> Maximum tolerance over `strict`
    real(dp), parameter :: max_tolerance_ratio = 40.0_dp
 
    type :: step_accuracy_t
@@ -34,7 +34,7 @@ module ehl_step_accuracy
       real(dp) :: mean_square = 0.0_dp
       !> Change of mu_r/mu_s per residual; 0: not known
       real(dp) :: sensitivity = 0.0_dp
-      !> Largest tolerance so far
+      !> Maximum tolerance so far
       real(dp) :: largest = 0.0_dp
    contains
       procedure :: set

@@ -13,7 +13,7 @@ module ehl_step_policy
    !> Attempts at a step: from the predicted pressure; from the pressure of the last step, with limited relaxation; the same with a
    !> lower limit; the same with damped relaxation and coarse-grid corrections. The next attempt starts when the residual stalls.
    integer, parameter :: attempt_predicted = 1, attempt_last = 2, attempt_limited = 3, attempt_damped = 4
-   !> Largest change of the logarithm of a node's conductance in a sweep, by attempt
+   !> Maximum change of the logarithm of a node's conductance in a sweep, by attempt
    real(dp), parameter :: max_log_change(4) = usual_log_change/[1.0_dp, 3.0_dp, 9.0_dp, 9.0_dp]
    !> Factors of the changes by relaxation and coarse-grid correction in the damped attempt. Otherwise relaxation in which a peak
    !> jumps from node to node, and coarse grids that overshoot it, may lead to cycles that repeat states.

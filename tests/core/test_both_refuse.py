@@ -15,7 +15,7 @@ from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
 from pyehl.solver import Solver
 
-COMPLETED = "which pyehl makes of it"
+COMPLETED = "which pyehl derives from it"
 """In the message of a case that ehl refers to pyehl."""
 CONTACTS: tuple[dict[str, Value], ...] = (
     {},
