@@ -153,7 +153,7 @@ def fields() -> Values:
 
 
 def lobes() -> Values:
-    """Correlations of the film reduction, and its rms, at small and large slip."""
+    """Correlations of the loss of film, and its rms, at small and large slip."""
     rows = read("fields/lobes.csv")
     lines = {}
     for names in ("g1, g4, h1, h3, h7, h8", "i1 to i6"):

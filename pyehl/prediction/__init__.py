@@ -34,7 +34,7 @@ Limits of the model
   and viscosity eta0, and less pressure around it by the response, so that the load is kept. The
   points are counted (`cavitated_share`) and the share of friction that depends on this is bounded
   (`cavitated_friction`); near the edge of the contact p_s vanishes, so a few points are normal.
-* A film reduction rr_d of more than 1.6 h_s by the response, of more than h_s in the model of the
+* A loss of film rr_d of more than 1.6 h_s by the response, of more than h_s in the model of the
   paper: there is no full film, which the model needs: status ``"film breakdown"``, no ratio.
 * mu_r/mu_s above 10: status ``"beyond linear response"``, no ratio; the message names a cut-off of
   the spectrum that brings it into the range in which the model was compared.

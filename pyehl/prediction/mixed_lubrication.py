@@ -5,7 +5,7 @@ The film predicted by the response must not, at any position of the tile, be thi
 boundary film (``lubricant.boundary_film``; under pressure it is compressed as the lubricant is). A
 contact pressure p_c increases the film. It deforms the surfaces as if the roughness r were r -
 p_c/K, K being the stiffness of the half-space, and the fluid flattens this difference like any
-roughness. So the film reduction decreases by T p_c/K and the pressure increases by T p_c, where T
+roughness. So the loss of film decreases by T p_c/K and the pressure increases by T p_c, where T
 is the response to waves that move with the lubricant, as the films of nodes in contact do. For
 waves as long as the contact T is near zero: solid contact then relieves the fluid of load, and the
 mean film remains that of the inlet.
@@ -195,7 +195,7 @@ class MixedContact:
     ) -> tuple[SolidContact | None, tuple[Array, Array, Mask]]:
         """Contact pressure, and pressure, film and nodes in contact (m, n), for changed films.
 
-        `change` (m, n, 2): film reduction and pressure increase; `thicker`: increase of all films;
+        `change` (m, n, 2): loss of film and pressure increase; `thicker`: increase of all films;
         `held`: the contact pressure of a similar state, to start from. None: no solution.
         """
         linear = self.rough.pressure + change[..., 1]

@@ -153,7 +153,7 @@ REFINEMENT = 4
 
 @dataclass(frozen=True, slots=True)
 class WaveTiles:
-    """Film reduction and pressure increase by driven and free waves as tiles, single precision.
+    """Loss of film and pressure increase by driven and free waves as tiles, single precision.
 
     With given lines in place of the columns of the tile, the driven waves are refined as the free
     ones.
@@ -350,7 +350,7 @@ class PixelTile:
         self.beside: dict[int, Single | None] = {}
 
     def add(self, contact: RoughContact, position: Position, total: Single) -> None:
-        """Add film reduction and pressure increase (m, n, 2); track: a multiple of the stride."""
+        """Add loss of film and pressure increase (m, n, 2); track: a multiple of the stride."""
         shift, track = (int(pixels) for pixels in position)
         waves = self.waves
         columns = (self.columns - track) // self.stride % waves.driven.shape[2]
@@ -399,7 +399,7 @@ class LineTile:
         return low.astype(np.int32), (at - low).astype(np.float32)
 
     def add(self, contact: RoughContact, position: Position, total: Single) -> None:
-        """Add film reduction and pressure increase."""
+        """Add loss of film and pressure increase."""
         shift = position[self.number]
         (rows, between), free = (self._rows(p - shift) for p in (self.places, self.free_places))
         extension.surface_functions.waves_between(

@@ -5,9 +5,9 @@ Units: lengths along the surface by a, heights by a^2/R, pressures by p_h.
 
 Pressure of second order in the roughness
 -----------------------------------------
-A column of lubricant keeps its mass rho(P) (H - t) during its passage. For a pressure P1 and a film
-reduction t1 of first order, with c = d ln rho/dP, r = (d^2 rho/dP^2)/rho and C = K H c, the
-pressure of second order that conserves the mass is
+A column of lubricant keeps its mass rho(P) (H - t) during its passage. For a pressure P1 and a loss
+of film t1 of first order, with c = d ln rho/dP, r = (d^2 rho/dP^2)/rho and C = K H c, the pressure
+of second order that conserves the mass is
 
     P2 = K/(1 + C) (c P1 t1 - r/2 H P1^2),
 
@@ -25,8 +25,8 @@ The second-order contribution of the inlet is not derived but measured in the fi
 (docs/evidence/fields). It is convected at the mean velocity like the free wave: a pressure
 INLET_PRESSURE P0^2, where P0 is the first-order pressure that the waves would have at their
 position without slip since the inlet. With slip P0 is less correlated with P1: only its part along
-P1^2, (<P0 P1>/s^2)^2 INLET_PRESSURE, is added to gamma. The film reduction t1 is smaller by
-INLET_FILM t1^2/H. So the film is nearly H exp(-t1/H), also for reductions of most of the film
+P1^2, (<P0 P1>/s^2)^2 INLET_PRESSURE, is added to gamma. The loss of film t1 is smaller by
+INLET_FILM t1^2/H. So the film is nearly H exp(-t1/H), also where most of the film is lost
 (docs/evidence/thin_film): :func:`film_left`.
 
 For two rough surfaces P1 contains the waves of both, and the sum also the pairs of one wave of
@@ -57,15 +57,15 @@ from pyehl.types import Array, Complex, Indices
 INLET_PRESSURE = 0.5
 """Second-order pressure from the inlet, over the square of the first-order one [1/p_h]."""
 INLET_FILM = 0.4
-"""Second-order film from the inlet, over the square of the first-order film reduction, both over
+"""Second-order film from the inlet, over the square of the first-order loss of film, both over
 the smooth film [-]."""
 
 FILM_ENDS = 1.6
-"""First-order film reduction over the smooth film above which no full film is predicted [-]: in
+"""First-order loss of film over the smooth film above which no full film is predicted [-]: in
 simulations the film is full at 1.2 and 1.35, and on fine grids not at 1.8
 (docs/evidence/thin_film)."""
 
-# Film reduction over the film up to which the second-order film is used; beyond it the film
+# Loss of film over the film up to which the second-order film is used; beyond it the film
 # continues as an exponential
 QUADRATIC = 0.6
 _LEFT = 1.0 - QUADRATIC + INLET_FILM * QUADRATIC**2
@@ -77,7 +77,7 @@ COARSER = 2
 
 
 def film_left(loss: Array) -> Array:
-    """Film over the smooth film, from the first-order film reduction over it [-]."""
+    """Film over the smooth film, from the first-order loss of film over it [-]."""
     near = np.minimum(loss, QUADRATIC)
     left = np.asarray(1.0 - near + INLET_FILM * np.square(near))
     # only few points
@@ -87,7 +87,7 @@ def film_left(loss: Array) -> Array:
 
 
 def loss_at(film: Array) -> Array:
-    """First-order film reduction for a film, both over the smooth film: inverse of `film_left`.
+    """First-order loss of film for a film, both over the smooth film: inverse of `film_left`.
 
     It is infinite for a film that is not positive.
     """

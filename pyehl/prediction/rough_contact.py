@@ -94,7 +94,7 @@ class RoughContact(ShearedContact):
         else:
             self.polynomials = edge.polynomials(self.x[i], self.across[j]).astype(np.float32)
         order = waves[0].transfer.second
-        # First-order film reduction over the smooth film at a film breakdown
+        # First-order loss of film over the smooth film at a film breakdown
         self.ends = FILM_ENDS if order else 1.0
         # gamma and s^2 of the pressure of second order
         self.second = order and [
@@ -152,7 +152,7 @@ class RoughContact(ShearedContact):
         return cls(smooth, operating, lubricant, x, y, area, waves, powers, tiles)
 
     def change(self, position: Position) -> Single:
-        """Film reduction [a^2/R] and pressure increase [p_h] at a position (m, n, 2)."""
+        """Loss of film [a^2/R] and pressure increase [p_h] at a position (m, n, 2)."""
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
         for tile in self.tiles:
             tile.add(self, position, total)
@@ -189,7 +189,7 @@ class RoughContact(ShearedContact):
         shift: int,
         total: Single,
     ) -> None:
-        """Add free waves, shifted by some rows, to film reduction and pressure increase (m, n, 2).
+        """Add free waves, shifted by some rows, to loss of film and pressure increase (m, n, 2).
 
         `places` are the row before each point (m, 1 or n) and the weight of the next one; columns
         (n,); `beside`: :meth:`WaveTiles.beside`.

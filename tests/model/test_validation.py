@@ -22,7 +22,7 @@ def rows(root: Path, name: str) -> list[dict[str, str]]:
 
 
 def test_rows_of_the_other_programs(root: Path, made: dict[str, Any]):
-    """Deviations between two rows, and film reduction by Carreau's law."""
+    """Deviations between two rows, and reduction of the film by Carreau's law."""
     pages = "validation.md", "evidence/validation/README.md"
     text = "".join(plain(root / "docs" / page) for page in pages)
     with (root / "pyehl/studies/references/smooth.csv").open(encoding="utf-8") as stream:

@@ -178,7 +178,7 @@ def compare(name: str, points: int, moments: list[Moment]) -> list[dict[str, Any
 
 
 def lobes(name: str, points: int, moments: list[Moment]) -> list[dict[str, Any]]:
-    """Film reduction in the side lobes and at the centre, simulated and predicted to first order.
+    """Loss of film in the side lobes and at the centre, simulated and predicted to first order.
 
     Gives the correlation, and both rms values [a^2/R].
     """

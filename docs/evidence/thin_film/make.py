@@ -7,7 +7,7 @@
     python docs/evidence/thin_film/make.py show         prints the tables of README.md
 
 A simulation takes two minutes on one core on 257 x 257 nodes and ten on 513 x 513. film.csv has the
-remaining film over the first-order film reduction: surface 1 at 6 m/s on 257 x 257 nodes, eight
+remaining film over the first-order loss of film: surface 1 at 6 m/s on 257 x 257 nodes, eight
 moments of the last period.
 """
 
@@ -61,7 +61,7 @@ RUNS = [
     (2, 3.0, "consistent", 513),
 ]
 KEYS = ("seed", "speed", "flow", "points")
-# Distances from the centre [a], and the width of a bin of film reductions
+# Distances from the centre [a], and the width of a bin of losses of film
 RINGS, BIN = {"r < 0.7": (0.0, 0.7), "0.7 to 0.9": (0.7, 0.9)}, 0.2
 POSITIONS = 32
 NAMES = {
@@ -91,13 +91,13 @@ def case_of(seed: int, speed: float, flow: str, points: int = 257) -> pyehl.Case
 
 
 def predicted(seed: int, speed: float, flow: str) -> Row:
-    """Predict a case; `loss` is the maximum first-order film reduction over the smooth film."""
+    """Predict a case; `loss` is the maximum first-order loss of film over the smooth film."""
     summary = pyehl.predict(case_of(seed, speed, flow)).summary | {"loss": loss(seed, speed, flow)}
     return {name: summary[name] for name in NAMES["predicted.csv"]}
 
 
 def loss(seed: int, speed: float, flow: str) -> float:
-    """Maximum first-order film reduction over a passage, over the smooth film."""
+    """Maximum first-order loss of film over a passage, over the smooth film."""
     settings = case_of(seed, speed, flow).resolve()
     point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     tile = surfaces.from_settings(settings, point, None)
@@ -113,7 +113,7 @@ def loss(seed: int, speed: float, flow: str) -> float:
 
 
 def film() -> list[Row]:
-    """Compute simulated over smooth film in bins of the predicted first-order film reduction."""
+    """Compute simulated over smooth film in bins of the predicted first-order loss of film."""
     sys.path.insert(0, str(HERE.parent / "fields"))
     fields = importlib.import_module("fields")
     case = case_of(1, 6.0, "consistent")
