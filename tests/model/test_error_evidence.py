@@ -42,7 +42,8 @@ def test_estimate_of_the_domain(root: Path, beside):
     fit, text = beside("errors", "fit"), page(root, "errors")
     flooded, zero = (fit.shares_covered(border, "H_c") for border in ("flooded", "zero"))
     covered = [f"{x.size} | {100.0 * np.mean(x <= 1.0):.1f} %" for x in (flooded, zero)]
-    assert f"| flooded | {covered[0]} | 2 | {flooded.max():.1f} (domain of the paper) |" in text
+    most = f"{flooded.max():.1f} (domain of [Zhang et al. 2019](../../bibliography.md))"
+    assert f"| flooded | {covered[0]} | 2 | {most} |" in text
     assert f"| P = 0 | {covered[1]} | 1.5 | |" in text
     # twice as large in the median, and 1.5 times
     assert np.median(flooded) == pytest.approx(0.5, abs=0.08)
