@@ -51,12 +51,12 @@ contains
    !> Border (0: find, 1: zero, 2: flooded), domain (NaN: find) and nodes (0: find)
    subroutine grid_defaults(line, roller, n_roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, &
                             viscosity, alpha, moes_m, moes_l, border, smooth, thins, domain, points, points_y, widening, reverses, &
-                            border_out, domain_out, points_out, points_y_out)
+                            may_reduce, border_out, domain_out, points_out, points_y_out)
       integer(c_int), intent(in) :: line, si, n_roller
       real(c_double), intent(in) :: roller(n_roller)
       real(c_double), intent(in) :: radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
                                     moes_m, moes_l
-      integer(c_int), intent(in) :: border, smooth, thins, points, points_y, reverses
+      integer(c_int), intent(in) :: border, smooth, thins, points, points_y, reverses, may_reduce
       !> Domain; maximum size of the contact under a duty over that of the case
       real(c_double), intent(in) :: domain(3), widening
       integer(c_int), intent(out) :: border_out, points_out, points_y_out
@@ -77,7 +77,7 @@ contains
          if (points > 0) grid%points = points
          grid%points_y = points_y
          call fill_grid(contact, point, smooth /= 0, thins /= 0, [border > 0, .not. ieee_is_nan(domain), points > 0], grid, &
-                        widening, reverses /= 0)
+                        widening, reverses /= 0, may_reduce /= 0)
          border_out = merge(2_c_int, 1_c_int, grid%border == "flooded")
          domain_out = [grid%x_inlet, grid%x_outlet, grid%y_extent]
          points_out = grid%points

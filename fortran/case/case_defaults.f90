@@ -59,7 +59,8 @@ contains
       call fill_grid(contact, point, input%surface%kind == "smooth" .and. input%second_surface%kind == "smooth", &
                      input%lubricant%shear_law /= "newtonian" .and. input%lubricant%flow == "consistent", &
                      [given(1) .or. input%duty%active() .or. is_starved(input), given(2:)], input%grid, &
-                     duty_widening(input), input%duty%reverses())
+                     duty_widening(input), input%duty%reverses(), &
+                     .not. (input%duty%active() .or. is_starved(input) .or. input%lubricant%boundary_film > 0.0_dp))
       if (input%contact%is_line() .and. .not. source%given("solver.deflection")) input%solver%deflection = "fft"
       call complete_motion(source, input)
       call complete_surface(source, "surface", input%grid%x_inlet, input%surface)

@@ -29,11 +29,15 @@ module ehl_case_grid
    real(dp), parameter :: high_spike = 15.0_dp
    !> Largest a-priori error of H_c on the default grid of a smooth contact
    real(dp), parameter :: max_error = 0.05_dp
+   !> Largest a-priori error of H_c on a smaller grid of a steady, flooded contact with kappa above `very_wide`, near the median
+   !> error of 0.4 % of balls on discs (docs/evidence/machines), and the smaller grids
+   real(dp), parameter :: small_error = 0.005_dp, very_wide = 4.0_dp
+   integer, parameter :: fewer_points(2) = [257, 385]
 
 contains
 
    !> Set border, domain and numbers of nodes from the operating point unless given
-   pure subroutine fill_grid(contact, point, smooth, thins, given, grid, widening, reverses)
+   pure subroutine fill_grid(contact, point, smooth, thins, given, grid, widening, reverses, may_reduce)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
       !> Whether both surfaces are smooth; whether the flow is shear-thinning
@@ -44,8 +48,9 @@ contains
       !> Duty: largest size of the contact over that of the case; whether the flow reverses
       real(dp), intent(in) :: widening
       logical, intent(in) :: reverses
+      !> Whether a wide contact may have fewer nodes: it is steady and flooded, without a boundary film
+      logical, intent(in) :: may_reduce
       type(domain_t) :: domain
-      real(dp) :: errors(2)
       logical :: blunt
 
       if (.not. given(1) .and. flooded_by_default(contact, point) .and. contact%is_even()) grid%border = "flooded"
@@ -54,8 +59,7 @@ contains
       if (.not. given(3)) grid%x_outlet = merge(-grid%x_inlet, widening*domain%outlet, reverses)
       if (.not. given(4)) grid%y_extent = widening*domain%side
       if (smooth .and. .not. given(5) .and. .not. grid%target_error > 0.0_dp) then
-         errors = relative_errors(contact, point, (grid%x_outlet - grid%x_inlet)/(grid%points - 1))
-         if (errors(1) > max_error) grid%points = 2*grid%points - 1
+         grid%points = points(contact, point, grid, may_reduce .and. .not. contact%is_roller())
       end if
       blunt = point%alpha_bar < blunt_spike(point%moes_l)
       if (contact%is_roller()) then
@@ -66,12 +70,42 @@ contains
       if (.not. grid%points_y > 0) grid%points_y = rows(contact, smooth, smooth .and. blunt, grid)
    end subroutine fill_grid
 
+   !> Nodes along X by the a-priori error of H_c
+   pure integer function points(contact, point, grid, may_reduce)
+      class(contact_t), intent(in) :: contact
+      type(operating_t), intent(in) :: point
+      !> With the usual number of nodes
+      type(grid_case_t), intent(in) :: grid
+      logical, intent(in) :: may_reduce
+      integer :: k
+
+      points = grid%points
+      if (error(points) > max_error) points = 2*points - 1
+      if (.not. may_reduce .or. contact%is_line() .or. .not. contact%reach(2) > very_wide*contact%reach(1)) return
+      do k = 1, size(fewer_points)
+         if (error(fewer_points(k)) > small_error) cycle
+         points = fewer_points(k)
+         return
+      end do
+
+   contains
+
+      pure real(dp) function error(nodes)
+         integer, intent(in) :: nodes
+         real(dp) :: errors(2)
+
+         errors = relative_errors(contact, point, (grid%x_outlet - grid%x_inlet)/(nodes - 1))
+         error = errors(1)
+      end function error
+   end function points
+
    !> Largest alpha p_h of a blunt spike. With long cells a contact with alpha p_h = 19.6 and L = 12.8 ends at the cycle limit; with
    !> L below 7 all seven contacts with alpha p_h from 26 to 54 are faster (docs/evidence/machines).
    pure real(dp) function blunt_spike(moes_l)
       real(dp), intent(in) :: moes_l
 
       blunt_spike = merge(19.0_dp, 21.0_dp, moes_l > 10.0_dp)
+      if (moes_l < 9.0_dp) blunt_spike = 35.0_dp
       if (moes_l < 7.0_dp) blunt_spike = huge(blunt_spike)
    end function blunt_spike
 

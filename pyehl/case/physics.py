@@ -86,13 +86,17 @@ def grid_defaults(
     A duty enlarges the contact up to `widening` times; if the motion `reverses`, the domain is
     symmetric.
 
-    Smooth surfaces have twice as many nodes along X if the film would otherwise be inaccurate.
+    Smooth surfaces have twice as many nodes along X if the film would otherwise be inaccurate. A
+    wide contact that is steady and flooded, without a boundary film, has fewer nodes if the film
+    remains accurate.
     """
     smooth = settings.surface.kind == settings.second_surface.kind == "smooth"
     oil = settings.lubricant
     thins = oil.shear_law != "newtonian" and oil.flow == "consistent"
     kind = smooth, thins
-    moving = widening, reverses
+    starved = max(settings.inlet.position_hertz, settings.inlet.film_hertz) > 0.0
+    may_reduce = not (settings.duty.time or starved or oil.boundary_film > 0.0)
+    moving = widening, reverses, may_reduce
     return _grid(_contact(settings), border, tuple(ends), points, points_y, kind, moving)
 
 
@@ -104,7 +108,7 @@ def _grid(
     points: int,
     points_y: int,
     kind: tuple[bool, bool],
-    moving: tuple[float, bool],
+    moving: tuple[float, bool, bool],
 ) -> Domain:
     given = [math.nan if end is None else end for end in ends]
     number = BORDERS.index(border)
