@@ -22,7 +22,11 @@ submodule (ehl_smooth_contact) ehl_cycle_guard
 contains
 
    module procedure begin_guard
-      self%guard = guard_t()
+      integer :: degree
+
+      degree = 0
+      if (self%is_ellipse() .and. has_coarser(self%results, self%n) .and. .not. self%damped) degree = self%guard%first
+      self%guard = guard_t(damping=degree, last_damping=degree, first=degree)
       call self%mixing%finish()
    end procedure begin_guard
 
@@ -51,6 +55,7 @@ contains
          limit = max_residual
          if (guard%residual_kept > 0.0_dp) limit = max(residual_tolerance, max_growth*guard%residual_kept)
          if (outcome == outcome_running) rejected = self%residual > limit
+         if (.not. (rejected .or. guard%softened .or. guard%residual_kept > 0.0_dp)) guard%first = guard%damping
          if (.not. rejected) guard%residual_kept = self%residual
          if (rejected) then
             if (self%cycles >= self%max_cycles) return

@@ -23,13 +23,16 @@ contains
    end procedure next_passage
 
    module procedure restart
+      logical :: again
+
+      again = finest
       if (finest) then
          if (.not. self%damped .and. self%options%may_restart) then
             self%damped = .true.
          else if (.not. self%guarded) then
             self%guarded = .true.
             self%damped = .false.
-         else if (self%options%guarded .and. .not. self%spares_spikes .and. self%options%spare_spikes_from < huge(1)) then
+         else if (may_spare_spikes(self)) then
             self%spares_spikes = .true.
          else if (self%options%line .and. self%options%layer > 0.0_dp .and. .not. self%meniscus%active) then
             self%meniscus%active = .true.
@@ -37,11 +40,21 @@ contains
          else
             return
          end if
+      else if (self%guard%softened .and. .not. self%damped .and. self%options%may_restart) then
+         self%damped = .true.
+         again = .true.
       end if
       outcome = outcome_running
       self%results%solved = .false.
       self%restarts = self%restarts + 1
       self%begun = .false.
-      self%n = merge(self%options%start, self%n + 1, finest)
+      self%n = merge(self%options%start, self%n + 1, again)
    end procedure restart
+
+   !> Whether a contact with sharp spikes may be solved again with the spikes left to relaxation
+   pure logical function may_spare_spikes(self)
+      class(smooth_contact_t), intent(in) :: self
+
+      may_spare_spikes = self%options%guarded .and. .not. self%spares_spikes .and. self%options%spare_spikes_from < huge(1)
+   end function may_spare_spikes
 end submodule ehl_smooth_restart
