@@ -29,12 +29,15 @@ def machine_ends() -> Values:
         (row, name) for row in rows for name in result if covered(row, name, "error") is not None
     ]
     missed = [(row, name) for row, name in known if not covered(row, name, "error")]
-    lines: dict[int, str] = {}
+    lines = ["| contact | κ | M, L | film | true error | stated error |", "|" + "---|" * 6]
     for row, name in missed:
         wrong = 100.0 * abs(row[f"{name}_fine"] / row[name] - 1.0)
         stated = 100.0 * row[f"{name}_error"] / row[name]
-        head = f"{row['kind']} | {row['moes_m']:.0f}, {row['moes_l']:.1f} | {row['points']} "
-        lines[len(lines)] = f"{head}| {result[name]} | {wrong:.1f} % | {stated:.1f} %"
+        head = (
+            f"{row['kind']} | {row['ellipticity']:.1f} | {row['moes_m']:.0f}, {row['moes_l']:.1f}"
+        )
+        lines.append(f"| {head} | {result[name]} | {wrong:.1f} % | {stated:.1f} % |")
+    missed_table = "\n".join(lines)
     (disc,) = (row for row in make.summary(rows) if row["contacts"] == "ball on disc")
     long = [row for row in rows if (row["seconds"] or 0.0) > 10.0]
     wide = [row for row in rows if row["ellipticity"] > 4.0]

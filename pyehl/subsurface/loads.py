@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 # Poisson ratio of steel, for cases without the group bodies
 DEFAULT_POISSON = 0.3
 MAX_FRICTION = 2.0
-# Criteria of a step: traction at the edge over the maximum, and over that of the next node
+# Criteria of a step: traction at the edge over the largest one, and over that of the next node
 STEP, FLAT = 0.1, 0.85
 
 

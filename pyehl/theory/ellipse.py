@@ -84,7 +84,7 @@ def ellipse(radius_ratio: float) -> Ellipse:
         square = math.exp(2.0 * log_kappa)
         return math.log(elliprd(0.0, 1.0, square) / elliprd(0.0, square, 1.0) / ratio)
 
-    # kappa is within a factor of 4 of D^(-2/3) for all ratios allowed in a case
+    # kappa is within a factor of 4 of D^(-2/3) for all ratios that a case allows
     middle = -2.0 / 3.0 * math.log(ratio)
     kappa = math.exp(brentq(miss, middle - math.log(4.0), middle + math.log(4.0), xtol=1e-15))
     factor = 1.5 / (math.pi * kappa * float(elliprd(0.0, kappa**2, 1.0)))

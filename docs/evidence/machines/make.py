@@ -7,8 +7,9 @@ python benchmarks/machines.py --seed 3 -o seed3.json
 python benchmarks/machines.py --seed 4 --count 16 --fine -o seed4.json
 python benchmarks/machines.py --seed 10 --count 44 -o seed10.json
 python benchmarks/machines.py --seed 12 --count 44 -o seed12.json
+python benchmarks/machines.py --seed 21 --count 40 --fine -o seed21.json
 python docs/evidence/machines/make.py read seed1.json seed2.json seed3.json \
-    seed4.json seed10.json seed12.json
+    seed4.json seed10.json seed12.json seed21.json
 python benchmarks/machines.py --shape line --seed 1 --count 200 --fine -o lines1.json
 python benchmarks/machines.py --shape line --seed 7 --count 200 --fine -o lines7.json
 python benchmarks/machines.py --shape line --seed 12 --count 200 --fine -o lines12.json
@@ -30,7 +31,6 @@ import json
 import math
 import sys
 from collections.abc import Iterable
-from itertools import pairwise
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -63,8 +63,10 @@ POINTS = (
     (12.0, 100.0, 8.0),
     (18.0, 2000.0, 10.0),
 )
-# As `blunt_spike` in fortran/case/case_grid.f90: alpha p_h up to L = 10 and above; limit of L
-SHARP, LOW = (21.0, 19.0), 7.0
+# As `blunt_spike` in fortran/case/case_grid.f90: alpha p_h up to L = 10 and above; alpha p_h and L
+# up to which the default cells are long, and L below which they are long at any alpha p_h
+SHARP, MEDIUM_SHARP, MEDIUM, LOW = (21.0, 19.0), 35.0, 9.0, 7.0
+USUAL = 513
 CELLS = (
     *("seed", "number", "law", "ellipticity", "moes_l", "alpha_p_h", "points", "points_y"),
     *("total_cycles", "seconds", "long_status", "long_total_cycles", "long_seconds"),
@@ -178,10 +180,12 @@ def measure_cells() -> None:
         contact = draw(row["number"] + 1, row["seed"])[row["number"]]
         alpha_p_h = contact.values["lubricant.pressure_viscosity"] * contact.pressure
         sharp = alpha_p_h > SHARP[row["moes_l"] > 10.0]
-        if row["ellipticity"] < 5.0 or row["moes_l"] > 15.0 or not sharp:
+        if row["ellipticity"] < 5.0 or row["moes_l"] > 15.0 or not sharp or row["points"] < USUAL:
             continue
-        # the default cells are long below this L, else short
-        across = (row["points_y"] - 1) * (2 if row["moes_l"] < LOW else 1)
+        is_long = row["moes_l"] < LOW or (row["moes_l"] < MEDIUM and alpha_p_h < MEDIUM_SHARP)
+        # so that half the rows can be coarsened as often
+        unit = (row["points"] - 1) // 4
+        across = unit * round((row["points_y"] - 1) * (2 if is_long else 1) / unit)
         keys = dict(contact.values) | SETTINGS | {"grid.points": row["points"]}
         short = timed(keys | {"grid.points_y": across + 1})
         long = timed(keys | {"grid.points_y": across // 2 + 1})
@@ -194,20 +198,35 @@ def measure_cells() -> None:
 def cells() -> list[str]:
     """Make the table of times on long cells over those on short ones, by L."""
     lines = [
-        "| L | contacts | no solution on long cells | faster on long cells | median ratio "
+        "| L | α p_h | contacts | no solution on long cells | faster on long cells | median ratio "
         "of times, long over short cells |",
-        "|---|---|---|---|---|",
+        "|---|---|---|---|---|---|",
     ]
-    for low, high in pairwise((0.0, LOW, 10.0, 15.0)):
-        mine = [row for row in read("cells.csv") if low <= row["moes_l"] < high]
+    groups = [
+        *((0.0, LOW, 0.0, math.inf), (LOW, MEDIUM, 0.0, MEDIUM_SHARP)),
+        *((LOW, MEDIUM, MEDIUM_SHARP, math.inf), (MEDIUM, 15.0, 0.0, math.inf)),
+    ]
+    for low, high, least, most in groups:
+        mine = [
+            row
+            for row in read("cells.csv")
+            if low <= row["moes_l"] < high and least <= row["alpha_p_h"] < most
+        ]
         good = [row for row in mine if row["long_status"] == "converged"]
         ratios = [row["long_seconds"] / row["seconds"] for row in good]
         faster = sum(ratio < 1.0 for ratio in ratios)
         lines.append(
-            f"| {low:g} to {high:g} | {len(mine)} | {len(mine) - len(good)} | {faster} "
-            f"| {median(ratios):.2f} |"
+            f"| {low:g} to {high:g} | {_between(least, most)} | {len(mine)} "
+            f"| {len(mine) - len(good)} | {faster} | {median(ratios):.2f} |"
         )
     return lines
+
+
+def _between(least: float, most: float) -> str:
+    """Name an interval of alpha p_h above the limits of SHARP."""
+    if most < math.inf:
+        return f"up to {most:g}"
+    return f"above {least:g}" if least > 0.0 else "any"
 
 
 def measure_border() -> None:
