@@ -15,11 +15,12 @@ module ehl_coarsest
    private
    public :: coarsest_t
 
-   !> Required reduction of the residual, and the maximum number of Newton steps
+   !> Residual over that at the start at which the iteration ends, and the maximum number of Newton steps
    real(dp), parameter :: reduction = 0.05_dp
    integer, parameter :: max_steps = 12
-   !> Old LU factors are used as long as a step reduces the residual by this factor
+   !> Old LU factors are used as long as a step reduces the residual to this fraction
    real(dp), parameter :: slow = 0.3_dp
+   !> Maximum number of trials of a step, each half as long as the one before
    integer, parameter :: max_halvings = 12
 
    !> Work space of the dense Newton iteration. Unknowns are the pressures of the interior nodes,

@@ -14,7 +14,7 @@ module ehl_cycle
    public :: cycle_options_t, damped_cycle, finest_cycle, max_damping, prolong_solution, refine
    public :: coarsening_classical, coarsening_alcouffe
 
-   !> Degrees of damping: largest change of the logarithm of a node's conductance, relaxation factors of a sweep and of the
+   !> Degrees of damping: maximum change of the logarithm of a node's conductance, relaxation factors of a sweep and of the
    !> coarse-grid correction. The first degree applies the full correction, which sets the mean film and the load.
    !> Where the pressure spike is a few nodes wide (L = 25 on 513 x 513 nodes) F cycles make it oscillate (docs/design.md).
    integer, parameter :: max_damping = 4, usual_damping = 2

@@ -1,8 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Hybrid line relaxation along X (Venner & Lubrecht 2000, ch. 6): lines of alternating colour
 !> are solved for changes of pressure. Where the Poiseuille term matters, a change applies to its
-!> own node alone (Gauss-Seidel). Where it is negligible, a change is a dipole: each of the four
-!> neighbours changes by -1/4 of it, so that its deflection is local (distributive Jacobi).
+!> own node alone (Gauss-Seidel). Where it is negligible, a change is a dipole: its four neighbours
+!> together change by the opposite (each by -1/4 of it on square cells, workspace.f90), so that its
+!> deflection is local (distributive Jacobi).
 !>
 !> Sources of the constants: docs/design.md.
 module ehl_relaxation
@@ -41,7 +42,7 @@ contains
       type(workspace_t), intent(inout) :: space
       !> Maximum change of the logarithm of a node's conductance; applied in time steps, or if it is below `usual_log_change`
       real(dp), intent(in) :: max_log_change
-      !> Relaxation factor of all changes
+      !> Factor of all changes, in addition to the relaxation factors above
       real(dp), intent(in) :: relaxation_factor
       integer :: colour, block, blocks, first, last, start, me
 

@@ -29,7 +29,7 @@ module ehl_cached_factors
 
    type :: cached_factors_t
       type(thinning_t) :: law
-      !> Whether factors are extrapolated for small changes, and the largest of these
+      !> Whether factors are extrapolated for small changes, and the maximum of these
       logical :: follows = .true.
       real(dp), private :: reach = 0.0_dp
       !> Whether the level is solved for a correction of a finer one, which allows larger changes

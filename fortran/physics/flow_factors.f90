@@ -36,17 +36,18 @@ module ehl_flow_factors
    !> the error to its square
    integer, parameter :: max_steps = 200
    real(dp), parameter :: tolerance = 1.0e-7_dp
-   !> A step is halved if the slope at its end has the opposite sign and more than this fraction of the magnitude at its start
+   !> A step is halved if the derivative along it has the opposite sign at its end, and more than this fraction of the magnitude
+   !> at its start
    real(dp), parameter :: overshoot = 0.5_dp
    !> Maximum step, or the stress itself if that is larger
    real(dp), parameter :: max_step = 4.0_dp
    !> The divided difference of F between two stresses closer than this, absolutely or relative to their sum, is replaced by
-   !> the mean of its slopes
+   !> the mean derivative
    real(dp), parameter :: close = 1.0e-4_dp
    !> Minimum component of S, so that derivatives are not 0/0; it changes the factors by its square only
    real(dp), parameter :: min_gradient = 1.0e-4_dp
 
-   !> Stress along X and along Y at the points of a film, its square, F and its slope (thinning.f90)
+   !> Stress along X and along Y at the points of a film, its square, F and (dF/d|tau|)/|tau| (thinning.f90)
    type :: film_t
       real(dp), dimension(points) :: tau_x, tau_y, square, f, slope
    end type film_t

@@ -42,7 +42,7 @@ module ehl_thinning
 
 contains
 
-   !> F for up to `most` squared stresses, and its slope (dF/d|tau|)/|tau|
+   !> F for up to `most` squared stresses, and (dF/d|tau|)/|tau|
    pure subroutine thinness(self, square, f, slope)
       class(thinning_t), intent(in) :: self
       real(dp), contiguous, intent(in) :: square(:)

@@ -27,7 +27,7 @@ module ehl_level
    !> Number of nodes that a search tests at a time
    integer, parameter :: stride = 8
 
-   !> ln(eta/eta0) at the Hertz pressure, and lambda_bar (M = 640), below which a contact counts as soft
+   !> ln(eta/eta0) at the Hertz pressure, and lambda_bar (that of M = 640), below which a contact counts as soft
    real(dp), parameter :: isoviscous_below = 8.0_dp, thin_below = 2.0e-3_dp
 
    !> Fields of one level, arrays of shape (nx, ny). Dimensionless: P by p_h, lengths by a,
@@ -48,7 +48,7 @@ module ehl_level
       type(supply_t) :: supply
       !> Rigid separation H00
       real(dp) :: h00 = 0.0_dp
-      !> Required value of the pressure sum (2 pi/3 on the finest grid)
+      !> Required value of the pressure sum (reynolds.f90)
       real(dp) :: load = 0.0_dp
       !> Pressure, film, and the right-hand side of the film equation: the film minus H00 and deflection
       real(dp), allocatable :: p(:, :), h(:, :), film_rhs(:, :)
@@ -58,7 +58,7 @@ module ehl_level
       real(dp), allocatable :: rho(:, :), h_drho_dp(:, :)
       !> Mass content rho H
       real(dp), allocatable :: mass_content(:, :)
-      !> Whether the contact is soft: thin film, and viscosity close to that of the inlet
+      !> Whether the contact is soft: a thin film, and a small increase of viscosity with pressure
       logical :: soft = .false.
       !> Number of threads, and whether it is more than one
       integer :: threads = 1

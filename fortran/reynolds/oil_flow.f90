@@ -14,11 +14,12 @@ module ehl_oil_flow
    character(len=*), parameter :: oil_names(7) = [character(len=13) :: "oil_layer", "oil_in", "oil_out", "oil_at_sides", &
                                                   "oil_content", "oil_gain", "oil_imbalance"]
 
-   !> Flows per time, int rho H dY at the mean velocity [a^3/R]; of a line contact per unit length
+   !> Flows over the mean velocity of the case: int rho H dY of oil that moves at this velocity [a^3/R]; of a line contact per unit
+   !> length
    type :: oil_flow_t
       real(dp) :: enters = 0.0_dp, leaves = 0.0_dp, sides = 0.0_dp
-      !> Imbalance over the flow that enters; 0 where the inlet is flooded. In a time step over the flow that enters at the mean
-      !> velocity of the case if that is larger.
+      !> Imbalance over the flow that enters; 0 where the inlet is flooded. In a time step at least over the flow of the
+      !> layer, or of the minimum rho H of each row if that is less, at the mean velocity of the case.
       real(dp) :: imbalance = 0.0_dp
       !> Oil between the faces where it enters and leaves, int rho H dX dY [a^4/R], and its time derivative
       real(dp) :: content = 0.0_dp, gain = 0.0_dp

@@ -10,7 +10,7 @@
 !>
 !>    N(i) <- N(i) - missing(i-1),     missing(i) = -N(i) where P(i) = 0 and N(i) < 0, else 0
 !>
-!> In a time step the oil at a node changes, too. With the mean velocity U, the factor s of the squeeze term and the deficit
+!> In a time step the oil at a node also changes. With the mean velocity U, the factor s of the squeeze term and the deficit
 !> d(i) of rho H, the mass defect of a node is
 !>
 !>    rhs(i) - N(i) = s d(i) + missing(i),     rhs: of earlier times,     missing(i) = (U/hx) f(i)

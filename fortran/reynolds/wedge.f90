@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Wedge and squeeze terms d(rho H)/dX + d(rho H)/dT on one grid: an implicit part, upstream in X, and the part of
-!> earlier times. No other module contains these stencils or the time schemes.
+!> earlier times
 module ehl_wedge
    use ehl_kinds, only: dp
    implicit none (type, external)

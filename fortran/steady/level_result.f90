@@ -83,7 +83,7 @@ contains
       end if
    end function film_errors
 
-   !> Discretisation error of the load share on level n > 1: the difference to the next coarser level if that resolves the inlet
+   !> Discretisation error of the load share on level n > 1: the difference from the next coarser level if that resolves the inlet
    !> (order 1, since the edge of the solid contact lies between two nodes), at least the error from that of the film
    pure real(dp) function share_error(results, n, inlet)
       type(level_result_t), intent(in) :: results(:)

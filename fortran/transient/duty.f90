@@ -12,8 +12,8 @@ module ehl_duty
    integer, parameter :: duty_load = 1, duty_u1 = 2, duty_u2 = 3, duty_radius_x = 4, duty_radius_y = 5, duty_viscosity = 6, &
                          duty_layer = 7
    integer, parameter :: quantities = 7
-   !> Times before the table: in which the quantities change from the case to the first row, and in which the film adapts to it
-   !> [a/u of the first row]
+   !> Times before the table: in which the quantities change from the case to the first row [a/u of the faster of both], and in
+   !> which the film then adapts to it [a/u of the first row]
    real(dp), parameter :: ramp = 2.0_dp, follow = 4.0_dp
    !> Minimum mean velocity of the first row over that of the case for which time to adapt is added
    real(dp), parameter :: at_rest = 0.05_dp
@@ -76,7 +76,7 @@ contains
       mean_velocity = 0.5_dp*(self%speeds(1) + self%speeds(2))
    end function mean_velocity
 
-   !> Compute slopes and displacements from times and values
+   !> Compute time derivatives and displacements from times and values
    pure subroutine setup(self)
       class(duty_t), intent(inout) :: self
       integer :: n, k
@@ -119,7 +119,7 @@ contains
       if (k > 1 .and. k <= n) self%constant_until = self%time(k - 1)
    end subroutine setup
 
-   !> Whether all quantities are those of the case up to and at a time
+   !> Whether no roughness moves and all quantities are those of the case, up to and at a time
    pure logical function is_constant(self, time)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: time

@@ -121,7 +121,7 @@ contains
    subroutine assess(self, duty, step, speed, error, good)
       class(duty_steps_t), intent(inout) :: self
       type(duty_t), intent(in) :: duty
-      !> Mean velocity; relative error of the films
+      !> The step, the mean velocity, and the relative error of the films that the step adds
       real(dp), intent(in) :: step, speed, error
       logical, intent(out) :: good
       real(dp) :: allowed

@@ -225,7 +225,7 @@ def duty_history(
 
 
 def duty_conditions(history: Mapping[str, Array], *, ax: Axes | None = None) -> Axes:
-    """Draw those of load, velocity, radius, viscosity and layer that change, over the case's."""
+    """Draw load, velocity, radius, viscosity and layer relative to the case, if they change."""
     ax = style.axes_or_new(ax, 5.4, 1.6)
     time = history["t_s"] * 1e3
     labels = {"load": "load", "speed": "velocity", "radius_x": "radius", "viscosity": "viscosity"}
