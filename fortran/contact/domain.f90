@@ -50,7 +50,7 @@ module ehl_domain
    real(dp), parameter :: load_beyond_inlet = 1.0_dp, load_beyond_sides = 0.25_dp, min_sensitivity = 0.5_dp, &
                           dented_below = 5.5_dp
    !> Around an ellipse the deflection extends further, by the factor kappa k_b over that of a round contact: maximum of this
-   !> factor of the error with a flooded border, and its power with P = 0, where a narrow contact has a larger error, too
+   !> factor of the error with a flooded border, and its power with P = 0, where a narrow contact also has a larger error
    real(dp), parameter :: max_wide = 4.0_dp, wide_power = 0.4_dp
    !> Sides of a wide contact in half widths, and length s of a film above which they are further out; with a flooded
    !> border at most one half length along the motion beyond its ends, but at least `min_beyond` half widths: sides 1.5

@@ -49,7 +49,7 @@ module ehl_mlmi_down
 contains
 
    !> Set up the grid low:high, coarsened along an axis with 2t-point transfers;
-   !> correction_reach: largest distance in nodes at which a source corrects the deflection of a node
+   !> correction_reach: maximum distance in nodes at which a source corrects the deflection of a node
    subroutine halve(self, low, high, axis, mirror, t, correction_reach, status)
       class(stage_t), intent(inout) :: self
       integer, intent(in) :: low(2), high(2), axis, t, correction_reach

@@ -184,7 +184,7 @@ contains
       useful_threads = merge(threads, 1, grid%nx*grid%ny >= parallel_from)
    end function useful_threads
 
-   !> Error of the deflection, relative to its largest value, that stays below a tenth of the
+   !> Error of the deflection, relative to its maximum, that stays below a tenth of the
    !> discretisation error of a piecewise-constant Hertz pressure (2.2e-4 at h = 1/128)
    pure real(dp) function deflection_accuracy(grid)
       type(grid_t), intent(in) :: grid

@@ -12,7 +12,7 @@ submodule (ehl_plan) ehl_plan_grids
    integer, parameter :: min_start_points = 33
    !> Intervals of the coarsest grid of a line
    integer, parameter :: coarsest_of_line = 64
-   !> Length (2 H_c)^(1/2) of a thick film [a], and largest mesh size of the coarsest grid over this length
+   !> Length (2 H_c)^(1/2) of a thick film [a], and maximum mesh size of the coarsest grid over this length
    real(dp), parameter :: thick_film = 0.8_dp, coarsest_mesh = 0.9_dp
    !> Maximum a-priori error of H_c at which a failed smooth contact is restarted with damped cycles
    real(dp), parameter :: resolved_error = 0.1_dp

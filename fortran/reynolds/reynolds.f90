@@ -23,8 +23,9 @@
 !>    narrow     c = (3/2, 0, 0)/dT                            rhs = [-2 m'(i-1) + m"(i-2)/2]/dT
 !>    separate   c = (3/2, -2, 1/2)/hx + (3/2, 0, 0)/dT        rhs = [-2 m'(i) + m"(i)/2]/dT
 !>
-!> (narrow: both terms along the characteristic, dT = hx). On the levels below the finest rhs is that of the full
-!> approximation scheme (multigrid/coarse_problem.f90), and the first two lines may be a Galerkin product.
+!> (narrow: both terms along the characteristic, dT = hx; separate: at constant speed and step, otherwise see wedge.f90). On the
+!> levels below the finest rhs is that of the full approximation scheme (multigrid/coarse_problem.f90), and the first two lines may
+!> be a Galerkin product.
 !>
 !> Zhang et al. 2019, eqs. 1, 7 and 8; the narrow scheme: Venner & Lubrecht 2000.
 !>
@@ -274,7 +275,7 @@ contains
       do j = 1, level%grid%ny
          deflection(j) = sum(level%p(:, j)*(level%h(:, j) - level%h00 - level%film_rhs(:, j)))*level%grid%weight(j)
          if (level%grid%is_border(j)) cycle
-         ! a pressure step beside the border, where the conductance is largest, would cause a large residual
+         ! a pressure step beside the border, where the conductance is highest, would cause a large residual
          after(2:nx - 1) = factor*level%p(2:nx - 1, j) - (factor - 1.0_dp)*min(level%p(2:nx - 1, j), border)
          call level%boundary%yielding%limit_pressure(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
          level%p(2:nx - 1, j) = after(2:nx - 1)

@@ -11,7 +11,7 @@ module ehl_report_end
    private
    public :: report_end
 
-   !> Nodes per wavelength needed by waves as high as the film (docs/limits.md); largest fraction of the variance in shorter waves
+   !> Nodes per wavelength needed by waves as high as the film (docs/limits.md); maximum fraction of the variance in shorter waves
    integer, parameter :: enough_nodes = 32
    real(dp), parameter :: max_short_waves = 0.01_dp
 

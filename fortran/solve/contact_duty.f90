@@ -126,7 +126,7 @@ contains
    end subroutine find_minimum
 
    !> Coefficient of friction, frictional power, and flash temperature of walls in a steady state. Not known where the Newtonian
-   !> stress exceeds the limit up to which oils are Newtonian.
+   !> stress exceeds the limit up to which oils are Newtonian, or bodies touch and their friction is not given.
    subroutine find_friction(self, level, mu, power, flash)
       class(contact_run_t), intent(in) :: self
       type(level_t), intent(in) :: level

@@ -138,7 +138,7 @@ module ehl_contact_run
 
 contains
 
-   !> Prepare the coarse grids of the plan
+   !> Start a run: grids, smooth contact, and an empty history
    subroutine begin(self, status)
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status

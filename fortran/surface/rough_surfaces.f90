@@ -100,7 +100,7 @@ contains
       rough = self%count() > 0
    end function rough
 
-   !> Whether half the domain suffices
+   !> Whether the heights are even in Y, so that half the domain is enough
    pure logical function even_in_y(self)
       class(rough_surfaces_t), intent(in) :: self
       integer :: k
@@ -165,7 +165,7 @@ contains
    end subroutine update_resolution
 
    !> Fraction of the total variance in waves with fewer nodes per period than `nodes`; if a variance is not known the
-   !> largest fraction of one surface
+   !> maximum over the surfaces
    pure real(dp) function unresolved_fraction(self, grid, nodes)
       class(rough_surfaces_t), intent(in) :: self
       type(grid_t), intent(in) :: grid

@@ -18,7 +18,7 @@ module ehl_step_accuracy
    real(dp), parameter :: averaging_steps = 64.0_dp
    !> Interval of steps with an additional cycle that measures the sensitivity
    integer, parameter :: measured_steps = 30
-   !> Decay of the largest sensitivity with each measurement
+   !> Decay of the maximum sensitivity with each measurement
    real(dp), parameter :: decay = 0.9_dp
    !> Maximum tolerance over `strict`
    real(dp), parameter :: max_tolerance_ratio = 40.0_dp
