@@ -198,8 +198,8 @@ contains
          call source%refuse(trim(key), "the Hertz pressure is "//short(scales%pressure)//" Pa", "values in SI units with one "// &
                             "between "//short(minimum)//" Pa (4e-7 of reduced_modulus) and 2e10 Pa", status)
       else if (scales%length > input%contact%radius_x) then
-         call source%refuse(trim(key), "the Hertz radius "//short(scales%length)//" m exceeds that of the ball", &
-                            "values in SI units with a contact much smaller than the ball", status)
+         call source%refuse(trim(key), "the Hertz radius "//short(scales%length)//" m exceeds the reduced radius", &
+                            "values in SI units with a contact much smaller than the reduced radius", status)
       else if (point%moes_m < 0.1_dp) then
          call source%refuse(trim(key), "the Moes parameter M is "//short(point%moes_m), "values in SI units with 0.1 at least", &
                             status)

@@ -243,7 +243,7 @@ contains
    end function uncertainty
 
    !> Whether the relative change of the mean is within the tolerance. The scale is the mean, or over many periods, with peaks far
-   !> above the mean, the largest value. Without a common period the error of the window is added to the tolerance.
+   !> above the mean, the maximum. Without a common period the error of the window is added to the tolerance.
    pure logical function settled(self, tolerance)
       class(friction_mean_t), intent(in) :: self
       real(dp), intent(in) :: tolerance

@@ -92,8 +92,8 @@ def check_operating_point(draft: Draft) -> None:
             f"a Hertz pressure between {short(minimum)} Pa (4e-7 of reduced_modulus) and 2e10 Pa"
         )
     elif point.length > c.radius_x:
-        what = f"the Hertz radius {short(point.length)} m exceeds that of the ball"
-        expected = "a contact much smaller than the ball"
+        what = f"the Hertz radius {short(point.length)} m exceeds the reduced radius"
+        expected = "a contact much smaller than the reduced radius"
     elif point.moes_m < MIN_M:
         what = f"the Moes parameter M is {short(point.moes_m)}"
         expected = f"M of {MIN_M:g} at least"

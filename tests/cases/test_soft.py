@@ -142,7 +142,7 @@ def test_large_strain_is_reported(root: Path):
     assert "a strain of about 2.1 %" in reported
     small = {"contact.load": 0.01, "grid.points": 65}
     assert "strain" not in str(pyehl.solve(root / "cases/soft.nml", small).attrs["assessment"])
-    with pytest.raises(pyehl.InputError, match="exceeds that of the ball"):
+    with pytest.raises(pyehl.InputError, match="exceeds the reduced radius"):
         pyehl.check(root / "cases/soft.nml", {"bodies.modulus_1": 1e4, "contact.load": 5.0})
 
 
