@@ -151,7 +151,7 @@ def _duty(v: Values, settings: Settings) -> Iterator[str]:
         return
     duty = settings["duty"]
     names = [key for key, value in duty.items() if isinstance(value, tuple) and key != "time"]
-    steps = f"in about {v['duty_steps']:.0f} time steps" if v["duty_steps"] else "no surface moves"
+    steps = f"in about {v['duty_steps']:.0f} time steps" if v["duty_steps"] else "nothing changes"
     yield (
         f"duty       {', '.join(names)} at {len(duty['time'])} times, {duty['interpolation']}; to "
         f"{power(v['duty_end'], 4)} s: {steps}"

@@ -88,7 +88,7 @@ contains
             "'zero': a duty changes the distance of the border, and the flooded pressure there is not known", status)
          if (d%reverses() .and. abs(input%grid%x_inlet + input%grid%x_outlet) > 1.0e-9_dp*input%grid%x_outlet) then
             call source%refuse("grid.x_inlet", "a domain from "//to_text(input%grid%x_inlet)//" to "// &
-                               to_text(input%grid%x_outlet)//"a, and the mean velocity changes sign", &
+                               to_text(input%grid%x_outlet)//" a, and the mean velocity changes sign", &
                                "an inlet on both sides: x_outlet = -x_inlet", status)
          end if
          if (input%grid%target_error > 0.0_dp) call source%refuse("grid.target_error", "grid.target_error with a duty", &

@@ -14,6 +14,7 @@ from pyehl.contact import smooth
 from pyehl.contact.smooth import touching_points
 from pyehl.plots import surface
 from pyehl.plots.stribeck import draw_stribeck
+from pyehl.prediction import mixed_lubrication
 from pyehl.prediction.predict import predict
 from pyehl.schema import summary_of as scalars_of
 from pyehl.studies.curve import CONTACT, CONTACT_EHL, EMPIRICAL, UNITS
@@ -291,6 +292,17 @@ def test_no_number_of_contact_outside_the_range(cases, velocity, boundary_film, 
     assert {name: summary[name] for name in names} == dict.fromkeys(names)
     # there is no film that could have this error
     assert summary["h_min_rough_error_m"] is None
+
+
+def test_waves_too_short_for_the_points_of_the_contact(monkeypatch):
+    """Solid contact on a fifth of the usual points, which do not resolve the waves."""
+    monkeypatch.setattr(mixed_lubrication, "CONTACT_POINTS", (12.0, 12.0))
+    case = pyehl.Case.from_text(TEXT.format(0.3, 1.3e-7, 0.1))
+    summary = pyehl.predict(case, tracks=1).summary
+    for name in ("contact_load_share", "contact_area_share", "mu_ratio", "mu"):
+        assert summary[name] is None
+    assert "waves are too short" in summary["contact_load_share_error_note"]
+    assert "the bodies touch at the boundary film" in summary["message"]
 
 
 def test_no_contact_is_certain_outside_the_range(cases):

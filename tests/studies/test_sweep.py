@@ -15,11 +15,12 @@ from journals import rows_in
 import pyehl
 from pyehl.cli import main
 from pyehl.commands.sweep import report
+from pyehl.errors import EhlError
 from pyehl.studies import plan as plan_module
 from pyehl.studies.plan import Remaining, plan, seconds_of
 from pyehl.studies.study import make, parse_axis
 from pyehl.studies.sweep import Outcome
-from pyehl.studies.tasks import Task
+from pyehl.studies.tasks import RUNNERS, Task, execute, why_none
 
 
 def sweep(folder: Path, *words: str, expect: int = 0) -> tuple[str, str]:
@@ -226,6 +227,18 @@ def test_a_message_for_each_case_without_a_result(cases: Path, tmp_path: Path):
         cases / "quick.nml", {"solver.max_cycles": [1, 30]}, "grid.points=65", jobs=1
     )
     assert data.status.values.tolist() == ["cycle limit", "converged"]
+
+
+def test_message_of_a_failed_case(monkeypatch: pytest.MonkeyPatch):
+    """Without the class name of its error, and without a traceback."""
+
+    def fail(_: Task) -> None:
+        raise EhlError("there is no solution")
+
+    monkeypatch.setitem(RUNNERS, "solve", fail)
+    row = execute(Task(0, "", "solve"))
+    assert why_none(row) == "failed: there is no solution"
+    assert "traceback" not in row
 
 
 @pytest.mark.long
