@@ -70,7 +70,7 @@ contains
       if (.not. grid%points_y > 0) grid%points_y = rows(contact, smooth, smooth .and. blunt, grid)
    end subroutine fill_grid
 
-   !> Nodes along X by the a-priori error of H_c
+   !> Default number of nodes along X, by the a-priori error of H_c
    pure integer function points(contact, point, grid, may_reduce)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -99,8 +99,9 @@ contains
       end function error
    end function points
 
-   !> Largest alpha p_h of a blunt spike. With long cells a contact with alpha p_h = 19.6 and L = 12.8 ends at the cycle limit; with
-   !> L below 7 all seven contacts with alpha p_h from 26 to 54 are faster (docs/evidence/machines).
+   !> Largest alpha p_h of a blunt spike. With long cells a contact with alpha p_h = 19.6 and L = 12.8 ends at the cycle limit. With
+   !> L below 7 all seven contacts with alpha p_h from 26 to 54 are faster, with L from 7 to 9 all ten with alpha p_h from 21 to 35
+   !> (docs/evidence/machines).
    pure real(dp) function blunt_spike(moes_l)
       real(dp), intent(in) :: moes_l
 
