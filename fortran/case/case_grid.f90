@@ -100,7 +100,7 @@ contains
    end function points
 
    !> Largest alpha p_h of a blunt spike. With long cells a contact with alpha p_h = 19.6 and L = 12.8 ends at the cycle limit. With
-   !> L below 7 all seven contacts with alpha p_h from 26 to 54 are faster, with L from 7 to 9 all ten with alpha p_h from 21 to 35
+   !> L below 7 all nine contacts with alpha p_h from 26 to 54 are faster, with L from 7 to 9 all ten with alpha p_h from 21 to 35
    !> (docs/evidence/machines).
    pure real(dp) function blunt_spike(moes_l)
       real(dp), intent(in) :: moes_l

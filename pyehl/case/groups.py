@@ -225,7 +225,7 @@ class Grid:
         "[17, 4097]",
         "nodes along X: an even number up to 32, times a power of 2, plus 1; default 1025 where "
         "the expected error of H_c on 513 exceeds 5 %, and 257 or 385 in a smooth, steady, flooded "
-        "contact with kappa > 4 where it is at most 0.5 % on them",
+        "contact with kappa > 4 and no boundary film where it is at most 0.5 % on them",
     )
     points_y: int = whole(
         0,
