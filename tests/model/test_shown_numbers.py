@@ -132,7 +132,7 @@ def test_limits(states, cases: Path):
     assert pressure > 4e9
     power = np.log(Lubricant().viscosity_ratio(pressure)) + 1e-9
     superscript = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
-    say = f"is e{f'{power:.0f}'.translate(superscript)} times that at its edge"
+    say = f"is e{f'{power:.0f}'.translate(superscript)} times that at ambient pressure"
     states("docs/limits.md", f"differs by about {100.0 * spread:.0f} % between", say)
     heavy = {"contact.moes_m": 2000.0, "contact.moes_l": 20.0, "grid.points": 513}
     assert pyehl.solve(pyehl.Case.from_text("", heavy)).attrs["status"] == "converged"
