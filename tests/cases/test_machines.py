@@ -98,7 +98,7 @@ def test_gear_pair(root: Path, drive, tmp_path: Path):
     ratio = f"{predicted['mu_ratio']:.4f}"
     ratio += f" ± {predicted['mu_ratio_model_error']:.4f}"
     assert f"μ_r/μ_s = {ratio} and a minimum film of {min_film} nm" in text
-    assert "The film has no stated error" in text
+    assert "This film has no stated error" in text
     assert predicted["h_min_rough_error_m"] is None
     assert predicted["outside_range"] == []
     options = ["--set", "surface.kind=smooth", "--set", "second_surface.kind=smooth"]
