@@ -22,7 +22,7 @@ def complete(draft: Draft) -> None:
     if ends[0] is None and inlet.position_hertz > 0.0:
         ends[0] = -inlet.position_hertz
     # the flooded pressure at the border is not known under a duty, where it changes with time
-    if draft.settings.duty.time or max(inlet.position_hertz, inlet.film_hertz) > 0.0:
+    if draft.settings.duty.time or inlet.is_starved:
         border = border or "zero"
     result = physics.grid_defaults(
         draft.settings,

@@ -94,7 +94,7 @@ def grid_defaults(
     oil = settings.lubricant
     thins = oil.shear_law != "newtonian" and oil.flow == "consistent"
     kind = smooth, thins
-    starved = max(settings.inlet.position_hertz, settings.inlet.film_hertz) > 0.0
+    starved = settings.inlet.is_starved
     may_reduce = not (settings.duty.time or starved or oil.boundary_film > 0.0)
     moving = widening, reverses, may_reduce
     return _grid(_contact(settings), border, tuple(ends), points, points_y, kind, moving)
