@@ -59,7 +59,7 @@ contains
       if (.not. given(3)) grid%x_outlet = merge(-grid%x_inlet, widening*domain%outlet, reverses)
       if (.not. given(4)) grid%y_extent = widening*domain%side
       if (smooth .and. .not. given(5) .and. .not. grid%target_error > 0.0_dp) then
-         grid%points = points(contact, point, grid, may_reduce .and. .not. contact%is_roller())
+         grid%points = points(contact, point, grid, may_reduce)
       end if
       blunt = point%alpha_bar < blunt_spike(point%moes_l)
       if (contact%is_roller()) then
@@ -81,7 +81,8 @@ contains
 
       points = grid%points
       if (error(points) > max_error) points = 2*points - 1
-      if (.not. may_reduce .or. contact%is_line() .or. .not. contact%reach(2) > very_wide*contact%reach(1)) return
+      if (.not. may_reduce .or. contact%is_line() .or. contact%is_roller()) return
+      if (.not. contact%reach(2) > very_wide*contact%reach(1)) return
       do k = 1, size(fewer_points)
          if (error(fewer_points(k)) > small_error) cycle
          points = fewer_points(k)
