@@ -97,7 +97,7 @@ def test_which_wall_is_hot(solve):
 
 
 def test_fields(solve):
-    """Temperatures at the nodes: symmetric in Y, zero upstream of the contact, warm walls downstream."""
+    """Nodal temperatures: symmetric in Y, zero upstream of the contact, warm walls downstream."""
     done = solve(None, 65, FAST, fields=True)
     film, first, second = (done.field(name) for name in (FILM, WALL_1, WALL_2))
     assert film.max() == pytest.approx(done["temperature_rise_max_K"], rel=1e-12)
