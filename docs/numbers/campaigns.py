@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Outcomes of random cases and of random contacts of machines."""
+"""Outcomes of random cases and of random machine contacts."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ FAILED = ("negative film", "diverged", "cycle limit")
 
 
 def machine_ends() -> Values:
-    """Contacts of machines that did not converge, missed errors, large errors."""
+    """Random machine contacts that did not converge, missed errors, large errors."""
     make = script("machines/make.py")
     covered, rows = import_module("machines").covered, make.read()
     failed = [row for row in rows if row["status"] != "converged"]

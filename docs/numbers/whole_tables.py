@@ -7,7 +7,7 @@ from records import Values, script
 
 
 def machines() -> Values:
-    """Contacts of machines, their borders and sides, and modes on cells."""
+    """Random machine contacts, their borders and sides, and modes on cells."""
     make, modes = script("machines/make.py"), script("machines/modes.py")
     names = ("robustness", "speed", "sides", "by_border", "cells", "narrow_sides")
     return {name: "\n".join(getattr(make, name)()) for name in names} | {

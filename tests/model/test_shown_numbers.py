@@ -14,7 +14,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 import pyehl
-from pyehl.app import answers, worker
+from pyehl.app import answers
 from pyehl.prediction import response
 from pyehl.prediction.model import ELLIPTICITY, FILM_ELLIPTICITY
 from pyehl.schema import summary_of
@@ -189,7 +189,6 @@ def test_allowed_latencies_on_the_page(root: Path, states):
         f"allowed medians are {coarse} nodes and {fine}, including the {answers.DELAY:g} s",
         f"When the control has been at rest for {answers.DELAY:g} s",
     )
-    states("docs/design.md", f"may continue for {worker.GRACE:g} s")
 
 
 def test_constants_of_the_solver(root: Path):
