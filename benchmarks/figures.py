@@ -35,7 +35,7 @@ PROBLEMS = {
     "smooth": "smooth contact",
     "wave": "wave of Fig. 2",
     "fractal": "surface of Table 1",
-    "resolved fractal": "the same without waves below a/8",
+    "resolved fractal": "the same without wavelengths below a/8",
 }
 SYMBOLS = {"H_c": "$H_c$", "H_min": r"$H_\mathrm{min}$", "F": "$F$", "mu_ratio": r"$\mu_r/\mu_s$"}
 EXTRAPOLATED = ", extrapolated"

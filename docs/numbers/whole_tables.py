@@ -3,7 +3,11 @@
 
 from __future__ import annotations
 
-from records import Values, script
+import json
+
+from records import ROOT, Values, script
+
+from pyehl.conclusion import conclude
 
 
 def machines() -> Values:
@@ -16,6 +20,18 @@ def machines() -> Values:
         "narrow_times": "\n".join(make.speed(make.NARROW)),
         "modes": "\n".join(modes.lines()),
     }
+
+
+def gear() -> Values:
+    """A rough contact of two flanks: the last lines of its run, and its films."""
+    record = json.loads((ROOT / "docs/howto/gear.json").read_text(encoding="utf-8"))
+    pairs = [(1e9 * record[f"{n}_m"], 1e9 * record[f"{n}_error_m"]) for n in ("h_c", "h_min")]
+    solved = " | ".join(f"{film:.0f} ± {error:.0f} nm" for film, error in pairs)
+    unit = 1e9 * record["film_scale_m"]
+    limits = [unit * record[f"{name}_extrapolated"] for name in ("H_c", "H_min")]
+    extrapolated = " | ".join(f"{film:.1f} nm" for film in limits)
+    smooth, rough = (f"{1e9 * record[f'h_min{n}_m']:.0f}" for n in ("", "_rough"))
+    return locals() | {"output": f"```text\n{conclude(record)}\n```"}
 
 
 def rollers() -> Values:

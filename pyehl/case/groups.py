@@ -223,9 +223,10 @@ class Grid:
     points: int = whole(
         513,
         "[17, 4097]",
-        "nodes along X: an even number up to 32, times a power of 2, plus 1; default 1025 where "
-        "the expected error of H_c on 513 exceeds 5 %, and 257 or 385 in a smooth, steady, flooded "
-        "contact with kappa > 4 and no boundary film where it is at most 0.5 % on them",
+        "nodes along X: an even number up to 32, times a power of 2, plus 1; default 1025 in a "
+        "smooth contact where the expected error of H_c on 513 exceeds 5 %, and 257 or 385 if it "
+        "is steady and flooded, with kappa > 4 and no boundary film, and the error on them is at "
+        "most 0.5 %",
     )
     points_y: int = whole(
         0,
@@ -351,8 +352,9 @@ class Solver:
     max_cycles: int = whole(
         30,
         "[1, 10000]",
-        "maximum number of cycles per level; multiplied by 3 with a boundary film, by 4 for "
-        "rollers, by 10 in a time step with damped changes",
+        "maximum number of cycles per level; multiplied by 3 with a boundary film or an oil "
+        "layer, by 4 for rollers, by 10 where the meniscus of a line is sought or in a time step "
+        "with damped changes",
     )
     threads: int = whole(1, "[1, 256]", "OpenMP threads; results do not depend on their number")
 

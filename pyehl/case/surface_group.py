@@ -76,7 +76,8 @@ class Surface:
         0.0,
         "a",
         "0 or [0.01, 1000]",
-        "distance after which a feature repeats along a line contact; 0: 4, or 4 times its size",
+        "distance after which a single feature repeats along a line contact; 0: 4 times its "
+        "size, at least 4",
     )
     file: str = path("height map of kind 'map': .npy, text, instrument file")
     channel: str = text(

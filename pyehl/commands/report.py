@@ -8,7 +8,9 @@ from pyehl.reports.folder import report
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "folder", metavar="DIR", help="folder of run, predict, stribeck, sweep or response"
+        "folder",
+        metavar="DIR",
+        help="folder of run, predict, stribeck, sweep, bearing, gear or response",
     )
     parser.add_argument("-o", "--output", metavar="FILE.html", help="default: DIR/report.html")
     parser.add_argument(

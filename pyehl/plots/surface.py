@@ -239,7 +239,7 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
             lw=0.8, ec="white",
         )  # fmt: skip
     cut, total = [band[1] * 1e6 for band in known], np.cumsum([band[2] for band in known])
-    ax.plot(cut, total, "o-", ms=3, lw=1.2, color=style.BLUE, label="with all longer ones")
+    ax.plot(cut, total, "o-", ms=3, lw=1.2, color=style.BLUE, label="with all longer waves")
     ax.axhline(0.0, color=style.GREY, lw=0.8)
     ax.set_xscale("log")
     style.label_decades(ax.xaxis)

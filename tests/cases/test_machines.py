@@ -80,7 +80,7 @@ def test_ball_bearing(root: Path, drive, tmp_path: Path):
 def test_gear_pair(root: Path, drive, tmp_path: Path):
     """The page has the numbers of the record, and the record those of the smooth contact."""
     case, page = root / "cases" / "gear_pair.nml", root / "docs" / "howto" / "gear.md"
-    text = page.read_text(encoding="utf-8")
+    text = plain(page)
     record = json.loads(page.with_suffix(".json").read_text(encoding="utf-8"))
     assert f"| solved on 97 nodes along the motion | {row_of(text)} |" in text
     unit = record["film_scale_m"] * 1e9

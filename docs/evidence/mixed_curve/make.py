@@ -68,7 +68,7 @@ def draw() -> Figure:
     for name in ("h_min_rough_error_m", "h_min_rough_ehl_error_m", "contact_area_share_error"):
         table[name] = float("nan")
     curve = Curve("", "contact.mean_velocity", table, absolute=True)
-    return draw_stribeck([curve], "surface of Table 1 without waves below 30 um, 20 N")
+    return draw_stribeck([curve], "surface of Table 1 without wavelengths below 30 um, 20 N")
 
 
 def main() -> None:
