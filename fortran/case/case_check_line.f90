@@ -12,7 +12,8 @@ module ehl_case_check_line
 
 contains
 
-   !> Refuse keys of a point for a line, keys of a line for a point, and options without meaning for a line
+   !> Refuse keys of a point for a line, keys of a line for a point, and options without meaning for a line. check_roller refuses
+   !> the keys that a roller does not have.
    subroutine check_line(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -20,6 +21,7 @@ contains
       character(len=*), parameter :: shape = "contact.shape = 'line'"
       character(len=:), allocatable :: key
 
+      if (input%contact%is_roller()) return
       if (.not. input%contact%is_line()) then
          key = source%first_given("contact", line_keys)
          if (key /= "") call source%refuse(key, key//" in a point contact", shape//", or "//key_of_point(key)// &

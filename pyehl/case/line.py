@@ -32,8 +32,13 @@ def complete(draft: Draft) -> None:
 
 
 def check_keys(draft: Draft) -> None:
-    """Refuse keys of a point with a line, keys of a line with a point, and unsupported options."""
+    """Refuse keys of a point with a line, keys of a line with a point, and unsupported options.
+
+    `pyehl.case.roller.check_keys` refuses the keys that a roller does not have.
+    """
     s = draft.settings
+    if s.contact.is_roller:
+        return
     if not s.contact.is_line:
         name = draft.first_given(f"contact.{key}" for key in LINE_KEYS)
         if name:

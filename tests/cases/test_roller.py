@@ -218,6 +218,7 @@ def test_ehl_reads_what_pyehl_resolves(tmp_path, ehl):
         ({"chamfer_drop_2": 1e-5}, "chamfer_drop_2 with contact.profile_2 = 'none'"),
         ({"radius_y": 0.1}, "contact.radius_y with contact.shape"),
         ({"angle": 3.0}, "contact.angle with contact.shape"),
+        ({"load_per_length": 1e5}, "contact.load_per_length with contact.shape = 'roller'"),
         ({"length": 1.0, "load": 1000.0}, "contact.length is"),
         ({"misalignment": 0.2}, "misalignment"),
     ],
