@@ -160,8 +160,7 @@ def draw(
         if beyond := measured.outside(curve.column(measured.abscissa)):
             words = f"{beyond} of {len(measured.places)} measured points are beyond the curve"
             print(f"note: {words}", file=sys.stderr)
-        over = {name: measured.over(name, curve) for name in (key,)}
-        overlay = Points(over, measured.friction, measured.error)
+        overlay = Points({key: measured.over(key, curve)}, measured.friction, measured.error)
     settings = plan.points[0].settings
     kinds = [f"'{settings[group]['kind']}'" for group in rough_groups(settings)] or ["'smooth'"]
     count = f", {plan.surfaces} surfaces" if plan.surfaces > 1 else ""
@@ -178,11 +177,12 @@ def _conditions(plan: CurvePlan) -> str:
         f"{sign} = {settings[group][key]:.4g}{unit}"
         for sign, group, key, unit in (
             ("w", "contact", "load", " N"),
+            ("w", "contact", "load_per_length", " N/m"),
             ("u", "contact", "mean_velocity", " m/s"),
             ("SRR", "contact", "slide_to_roll", ""),
             ("η₀", "lubricant", "viscosity", " Pa s"),
         )
-        if f"{group}.{key}" not in plan.study.keys
+        if key in settings[group] and f"{group}.{key}" not in plan.study.keys
     ]
     return ", ".join(result)
 

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import pyehl
+from pyehl.cli import main
 from pyehl.plots.figures import solution_figures
 from pyehl.reports.folder import report
 from pyehl.results import settings_of
@@ -278,6 +279,14 @@ def test_picture_and_report(root, tmp_path):
     assert "load per length w" in page
     assert "half width b of the contact" in page
     assert "infinitely long" in page
+
+
+def test_curve_of_a_line(tmp_path):
+    """The title of its picture has the load per length."""
+    case = tmp_path / "line.nml"
+    case.write_text("&contact shape = 'line' /\n&surface kind = 'fractal' pixels = 64 /\n")
+    assert main(["stribeck", str(case), "--speed", "0.5,1", "-o", str(tmp_path / "out")]) == 0
+    assert (tmp_path / "out" / "stribeck.png").is_file()
 
 
 def test_keys_of_a_line_in_messages(ehl: str, tmp_path: Path):
