@@ -25,14 +25,14 @@ class JobContext:
         self._began = time.monotonic()
 
     def newest(self) -> bool:
-        """Whether no newer job was submitted."""
-        return self._worker.generation == self.generation
+        """Whether no newer job was submitted, and the worker is not closed."""
+        return not self._worker.closed and self._worker.generation == self.generation
 
     def wanted(self) -> bool:
         """Whether an answer is still useful: the job is the newest, or has just begun."""
-        if self._worker.closed:
-            return False
-        return self.newest() or time.monotonic() - self._began < GRACE
+        if self.newest():
+            return True
+        return not self._worker.closed and time.monotonic() - self._began < GRACE
 
     def wait(self, seconds: float) -> bool:
         """Wait until `seconds` after its beginning; whether the job is still the newest one."""
@@ -81,7 +81,7 @@ class Worker:
             return not self.closed and self.generation == generation
 
     def close(self) -> None:
-        """End the thread, after the current cycle of a solver or prediction."""
+        """End the thread, after the present cycle of a film, or after a prediction or a download."""
         with self._changed:
             self.closed = True
             self._job = None

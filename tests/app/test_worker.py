@@ -3,10 +3,13 @@
 
 import threading
 import time
+from functools import partial
+
+import pytest
 
 from pyehl.app import answers
 from pyehl.app.position import from_case
-from pyehl.app.worker import Worker
+from pyehl.app.worker import JobContext, Worker
 from pyehl.case import Case
 from pyehl.errors import InputError
 
@@ -52,16 +55,17 @@ def test_worker_reports_an_exception_and_continues():
     assert [str(answer) for answer in reported] == ["no"]
 
 
-def test_closed_worker_stops_a_solver():
-    """Closing a tab stops its computation."""
+@pytest.mark.parametrize("wanted", [JobContext.wanted, JobContext.newest])
+def test_closed_worker_stops_a_solver(wanted):
+    """Closing a tab stops its computation, on coarse and on fine grids."""
     start, _ = from_case(Case())
     worker = Worker(lambda generation, answer: None)
     began = threading.Event()
 
     def job(context):
         began.set()
-        while context.wanted():
-            answers.film(start, 65, context.wanted)
+        while wanted(context):
+            answers.film(start, 65, partial(wanted, context))
 
     worker.submit(job)
     assert began.wait(10.0)
