@@ -17,8 +17,12 @@ def conditions(settings: Settings) -> dict[str, str]:
     result = {}
     if not point.si:
         result["given as"] = "M and L; below with the radius and modulus of a steel ball"
+    if contact.get("shape") == "roller":
+        result["roller, load w"] = f"{contact['load']:.6g} N"
+        result["length"] = f"{contact['length'] * 1e3:.6g} mm"
     if isinstance(point, LineContact):
-        result["line contact, load per length w"] = f"{point.load_per_length:.6g} N/m"
+        of = "mean" if contact.get("shape") == "roller" else "line contact,"
+        result[f"{of} load per length w"] = f"{point.load_per_length:.6g} N/m"
     else:
         result["load w"] = f"{point.load:.6g} N"
     result["mean velocity u"] = f"{point.mean_velocity:.6g} m/s"

@@ -34,7 +34,7 @@ from pyehl.studies.journal import NAME, read_header
 # Maximum size of a page [bytes]; the dots per inch of its pictures are reduced to keep it
 MAX_BYTES = 2_000_000
 # Keys that name a file
-FILES = ("file", "table")
+FILES = ("file", "table", "profile_file", "profile_file_2")
 EXPECTED = "expected: what -o of run, predict, stribeck, sweep, bearing, gear or response named"
 DOTS = (120, 100, 80, 60, 45)
 PICTURES = {
@@ -114,7 +114,7 @@ def report(
     check_files([path, printed] if pdf else [path], "report", inside if output else ())
     if pdf:
         browser.browser()
-    files = _files(source)
+    files = named_files(source)
     below = _stress(source, stress)
     for dpi in DOTS:
         title, assessment, parts = _content(source, dpi, below)
@@ -196,8 +196,8 @@ def _single(
     return title, assessment, parts
 
 
-def _files(folder: Path) -> set[str]:
-    """Give the files that a result names: height maps and tables of oils."""
+def named_files(folder: Path) -> set[str]:
+    """Give the files that a result names: height maps, and tables of oil, duty and profile."""
     header = read_header(folder) or {}
     vary = header.get("vary", {})
     result = {str(v) for key in vary if key.rpartition(".")[2] in FILES for v in vary[key]}

@@ -25,11 +25,16 @@ NOTES = {
 def limits(settings: Settings, summary: Values) -> list[str]:
     """List the limits of the model that apply to a result, in one or two sentences each."""
     point = scaling_contact(settings)
+    supply = (
+        "The inlet is starved: &inlet gives the oil that arrives, or where it begins."
+        if settings.get("inlet")
+        else "The inlet is fully flooded: there is no starvation."
+    )
     law, flow = settings["lubricant"]["shear_law"], settings["lubricant"]["flow"]
     rough = rough_groups(settings)
     predicted = summary.get("kind") == "prediction"
     result = [
-        f"The inlet is fully flooded: there is no starvation. {_contact(settings, summary)}",
+        f"{supply} {_contact(settings, summary)}",
         "Film and pressure are isothermal."
         if point.thermal_reduction == 1.0
         else "Shear heating of the inlet is a factor on the film (Gupta et al. 1992); film and "
@@ -61,7 +66,7 @@ def limits(settings: Settings, summary: Values) -> list[str]:
         result.append(
             "Above a Hertz pressure of 4 GPa few grids were tested; the status reports the outcome."
         )
-    if isinstance(point, LineContact):
+    if settings["contact"].get("shape") == "line":
         result.append(
             "The line is infinitely long: ends of a roller, its profile and misalignment are not "
             "included."

@@ -32,12 +32,14 @@ def stress_of(folder: Path, case: str, given: str | Path | bool | None) -> xr.Da
     case
         Its case, which the stress must have as well.
     given
-        Folder of `pyehl.stress`; True: compute it; None: `FOLDER` in the result folder.
+        Folder of `pyehl.stress`; True: compute it; None or False: `FOLDER` in the result folder.
 
     Raises
     ------
     InputError
-        If the folder has no stress, or that of another case.
+        If a folder that was given has no stress, or a folder has that of another case.
+    FileError
+        If the stress cannot be read.
     """
     if given is True:
         return stress(folder)

@@ -18,6 +18,8 @@ import pyehl
 from pyehl.cli import main
 from pyehl.display import with_error
 from pyehl.reports.assessment import assess
+from pyehl.reports.conditions import conditions
+from pyehl.reports.folder import named_files
 from pyehl.reports.limits import limits, warnings
 
 LARGEST = 2_000_000
@@ -383,6 +385,19 @@ def test_assessment(changed, word, why, kind):
     assert why in result.why
 
 
+def test_a_roller_is_no_infinite_line(tmp_path):
+    table = tmp_path / "profile.csv"
+    table.write_text("-0.005, 1e-5\n0, 0\n0.005, 1e-5\n")
+    keys = {"shape": "roller", "length": 0.01, "load": 2000.0}
+    case = pyehl.Case(contact={**keys, "profile": "file", "profile_file": str(table)})
+    assert "infinitely long" not in " ".join(limits(case.resolve(), {"kind": "solution"}))
+    shown = conditions(case.resolve())
+    assert (shown["roller, load w"], shown["length"]) == ("2000 N", "10 mm")
+    assert shown["mean load per length w"] == "200000 N/m"
+    (tmp_path / "case.nml").write_text(case.text)
+    assert named_files(tmp_path) == {str(table)}
+
+
 def test_limits_of_a_result(root):
     settings = pyehl.Case(root / "cases/table1.nml").resolve()
     reported = " ".join(limits(settings, {"kind": "prediction"}))
@@ -395,6 +410,13 @@ def test_limits_of_a_result(root):
         reported = " ".join(limits(thinning, {"kind": kind}))
         assert "film and waves are Newtonian" not in reported
         assert "film and waves are Newtonian" in " ".join(limits(plain, {"kind": kind}))
+    flooded, solved = "The inlet is fully flooded", {"kind": "solution"}
+    assert flooded in reported
+    starved = (
+        pyehl.Case(root / "cases/table1.nml", {"inlet.position_hertz": 1.5}).smooth().resolve()
+    )
+    assert flooded not in " ".join(limits(starved, solved))
+    assert "starved" in " ".join(limits(starved, solved))
     # the page never excludes contact at a boundary film
     layer = pyehl.Case(root / "cases/table1.nml", "lubricant.boundary_film=4e-8").resolve()
     touching = {"kind": "prediction", "status": "predicted", "contact_load_share": 0.1423}
