@@ -55,7 +55,7 @@ def solve(
     force
         Accept other files in the result folder; they stay.
     check
-        Raise `NotConverged` if there is no solution.
+        Raise `NotConverged` if the status at the end is not 'converged'.
     progress
         True: a line about the state on stderr, in a transient run with the time left; a function:
         called with the solver after each cycle or step.
@@ -69,8 +69,12 @@ def solve(
     ------
     InputError
         If the case is not acceptable, or `output` holds something else than results of `solve`.
+    FileError
+        If a height map cannot be read, or the folder cannot be written.
+    NoMemoryError
+        If the arrays do not fit into memory.
     NotConverged
-        If the run ended without a solution; the results so far are its ``results``.
+        If the run did not converge; the results so far are its ``results``.
     KeyboardInterrupt
         If the run was interrupted; the folder `output` is written nevertheless.
 
@@ -116,7 +120,7 @@ def solve(
         data = load(output)
     status = data.attrs["status"]
     if check and status != "converged":
-        raise NotConverged(f"no solution: the run ended with the status '{status}'", data)
+        raise NotConverged(f"not converged: the run ended with the status '{status}'", data)
     return data
 
 
@@ -142,8 +146,8 @@ def predict(
     surface, second_surface
         As in `solve`.
     smooth
-        Result folder with the smooth contact (of `solve`, or under a transient run); without it the
-        contact is solved first.
+        Result folder of `solve` with the same smooth contact, alone or under roughness; without it
+        the contact is solved first.
     tracks
         Tracks across the surface, for mean and spread of mu_r/mu_s.
     output

@@ -61,7 +61,9 @@ class Summary:
     def number(self, name: str) -> float:
         """Give a number; NaN where it is not known."""
         value = self.values.get(name)
-        return float(value) if isinstance(value, int | float) and value is not True else math.nan
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            return math.nan
+        return float(value)
 
     def text(self, name: str) -> str:
         """Give a text in one line, a list with commas; '' if it is missing."""
@@ -239,7 +241,8 @@ def _slenderness(s: Summary) -> list[str]:
     """Report a contact radius or a film that is not small against the radius of curvature.
 
     The half-space, the parabolic gap and the Reynolds equation assume that both are small. The
-    mean strain of a dry contact is about 0.2 a/R (Tabor 1951).
+    mean strain of a dry contact is about 0.2 a/R (Tabor 1951). Hertz: p_h/E' is a/(pi R) of a
+    circle, and b/(4 R) of a line.
     """
     radius = s.number("hertz_radius_m") or math.nan
     wide = s.number("film_scale_m") / radius
@@ -250,9 +253,12 @@ def _slenderness(s: Summary) -> list[str]:
         wide = across if across > wide or not math.isfinite(wide) else wide
     result = []
     if _finite_above(wide, SLENDER_CONTACT):
-        strain = "" if ellipse else f" (p_h/E' = {rounded(wide / math.pi, 2)})"
+        line = s.text("shape") in ("line", "roller")
+        size = "half width of the contact" if line else "contact radius"
+        ratio = wide / (4.0 if line else math.pi)
+        strain = "" if ellipse else f" (p_h/E' = {rounded(ratio, 2)})"
         result.append(
-            f"the contact radius is {rounded(wide, 2)} of the radius of curvature{strain}, a "
+            f"the {size} is {rounded(wide, 2)} of the radius of curvature{strain}, a "
             f"strain of about {percent(MEAN_STRAIN * wide)}, and the half-space model holds for "
             "small strains"
         )

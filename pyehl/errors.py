@@ -43,7 +43,7 @@ class ClosedError(EhlError, ValueError):
 
 
 class NoMemoryError(EhlError, MemoryError):
-    """An allocation failed, or too many solvers are open."""
+    """An allocation failed or would fail, or too many solvers are open."""
 
     def __reduce__(self) -> tuple[Any, ...]:
         # dask rebuilds exceptions with their own __init__, as MemoryError, without arguments
@@ -51,7 +51,7 @@ class NoMemoryError(EhlError, MemoryError):
 
 
 class NotConverged(EhlError, RuntimeError):  # noqa: N818 (the name of a status)
-    """The run ended without a solution.
+    """The run ended with another status than 'converged'.
 
     Attributes
     ----------

@@ -168,8 +168,11 @@ def key_of(option: str) -> str:
 def _option_of(key: str, value: Any) -> str:  # noqa: ANN401
     # the only keys that take lists
     if key.startswith("duty.") and isinstance(value, list | tuple | np.ndarray):
-        cells = [option(key, plain(float(cell))).partition("=")[2] for cell in np.ravel(value)]
-        return f"{key}={', '.join(cells)}"
+        try:
+            numbers = np.asarray(value, dtype=float).ravel().tolist()
+        except (TypeError, ValueError):
+            raise InputError(f"{key} = {reprlib.repr(value)}: expected numbers") from None
+        return f"{key}={', '.join(map(repr, numbers))}"
     try:
         return option(key, plain(value))
     except ValueError:
@@ -180,10 +183,10 @@ def _option_of(key: str, value: Any) -> str:  # noqa: ANN401
 
 
 def real_numbers(values: Any, what: str) -> Any:  # noqa: ANN401
-    """Return an array of real numbers unchanged; a masked one in double precision, with NaN.
+    """Return real numbers as an array; one of objects or a masked one in double precision.
 
-    `what` begins the message. InputError for complex numbers, truth values, dates and text, which
-    NumPy would convert without an error.
+    Masked numbers become NaN. `what` begins the message. InputError for complex numbers, truth
+    values, dates and text, which NumPy would convert without an error.
     """
     try:
         array = values if isinstance(values, np.ndarray) else np.asanyarray(values)
@@ -207,9 +210,10 @@ def real_numbers(values: Any, what: str) -> Any:  # noqa: ANN401
 
 
 def heights_of(heights: ArrayLike) -> Array:
-    """Give heights in Fortran order; InputError if they are not a matrix of finite numbers.
+    """Give heights [m] (nx, ny) in Fortran order, in double precision.
 
-    Masked and nan heights are missing points.
+    InputError if they are not a matrix of finite numbers; masked and nan heights are reported as
+    missing points.
     """
     values = np.asfortranarray(real_numbers(heights, "the surface"), dtype=np.float64)
     if values.ndim == 2 and np.isnan(values).any():

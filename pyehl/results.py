@@ -19,6 +19,7 @@ import xarray as xr
 
 from pyehl import namelist
 from pyehl.arrays import read_array
+from pyehl.destination import file_errors
 from pyehl.errors import FileError, InputError
 from pyehl.given import path_of
 from pyehl.schema import QUANTITIES, VERSION
@@ -102,7 +103,11 @@ SUFFIXES = {
 
 # Numbers have a unit in the schema; T, the time at the end, has the name of a coordinate
 SCALARS = {q.name: q for q in QUANTITIES if q.unit and q.name not in {f.name for f in SOLUTION}}
-SI = {"s", "m", "Pa", "N", "N/m", "K", "Pa s", "1/s", "1/Pa", "m/s", "byte"}
+SI = {
+    *("s", "m", "Pa", "N", "N/m", "N m", "W", "K", "Pa s", "1/s", "1/Pa", "m/s"),
+    *("deg", "byte"),
+}
+"""Units that are written as such; numbers in Hertz units have the unit '1'."""
 
 
 def settings_of(data: xr.Dataset) -> dict[str, dict[str, Any]]:
@@ -213,10 +218,14 @@ def _dataset(
 
 
 def _table(path: Path) -> dict[str, Array]:
-    with path.open(newline="", encoding="utf-8") as stream:
-        rows = list(csv.reader(stream))
-    values = [[float(cell or "nan") for cell in row] for row in rows[1:]]
-    table = np.array(values, dtype=np.float64).reshape(len(values), len(rows[0]))
+    """Read a table by its columns (rows,); FileError if it cannot be read or is damaged."""
+    try:
+        with file_errors(path, "cannot read"), path.open(newline="", encoding="utf-8") as stream:
+            rows = list(csv.reader(stream))
+        values = [[float(cell or "nan") for cell in row] for row in rows[1:]]
+        table = np.array(values, dtype=np.float64).reshape(len(values), len(rows[0]))
+    except (csv.Error, IndexError, ValueError) as error:
+        raise FileError(f"{path}: damaged: {error}") from error
     return {name: table[:, k].copy() for k, name in enumerate(rows[0])}
 
 
@@ -237,10 +246,12 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
         as ``case``; so is the time at the end, ``T``, whose name is that of a coordinate.
 
         Of a solution: X, Y, P, H [Hertz units], P and H of shape (nx, ny), and x_m, y_m, p_Pa,
-        h_m when the case was given in SI units. A transient run also has P_smooth, H_smooth (the
-        smooth contact), RR (the roughness, peaks positive), A_d = H_smooth - H (the roughness
-        deformed in the contact), and its frames frame_P and frame_H of shape (nx, ny, frames) at
-        the times T. Columns of the history are ``history_<column>``.
+        h_m when the case was given in SI units. A rough contact also has P_smooth, H_smooth (the
+        smooth contact), RR (the roughness, peaks positive) and A_d = H_smooth - H (the roughness
+        deformed in the contact); one with frictional heating temperature_rise_K (mean across the
+        film), temperature_rise_wall_1_K and temperature_rise_wall_2_K; a transient run the frames
+        frame_P and frame_H of shape (nx, ny, frames) at the times T, if the case asks for them.
+        Columns of the history are ``history_<column>``.
 
         Of a prediction: surface_m, deformed_m and delta_p_Pa of shape (nx, ny) over x_m, y_m, and
         the columns ``passage_...``, ``spectrum_...`` and ``bands_...``. Of two rough surfaces also
@@ -275,6 +286,8 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
         raise FileError(f"{folder}: cannot read: {error.filename}: {error.strerror}") from error
     except ValueError as error:
         raise FileError(f"{folder}: summary.json or case.nml is damaged: {error}") from error
+    if not isinstance(summary, dict):
+        raise FileError(f"{folder}: summary.json is damaged: it is no object")
     if summary.get("kind", "solution") not in ("solution", "prediction"):
         raise InputError(_no_case(folder, f"of '{summary['kind']}'"))
     if summary.get("schema_version", VERSION) > VERSION:

@@ -18,6 +18,7 @@ import xarray as xr
 import pyehl
 from pyehl import cli
 from pyehl.measured_response import measurement
+from pyehl.results import unit_of
 from pyehl.schema import summary_of
 
 
@@ -77,6 +78,9 @@ def test_a_case_by_its_values():
     assert case.with_options(values, "surface.seed=3").resolve()["surface"]["seed"] == 3
     with pytest.raises(pyehl.InputError, match=r"(?s)contact\.laod.*'load'"):
         pyehl.Case(contact={"laod": 3.0})
+    for times in (["late", 1.0], [[0.0, 1.0], [2.0]], [None, 1.0]):
+        with pytest.raises(pyehl.InputError, match=r"duty\.time.*numbers"):
+            pyehl.Case.from_text("", {"duty.time": times})
 
 
 @pytest.mark.parametrize("values", [{"grid.points": 66}, {"gird.points": 65}])
@@ -110,6 +114,8 @@ def test_scalars_have_units(fractal: Path, tmp_path: Path):
         assert data.moes_m.attrs["units"] == "1"
         names = [str(name).lower() for name in data.variables]
         assert len(names) == len(set(names))
+    names = ("duty_power_max_W", "rolling_moment_N_m", "rolling_moment_N", "angle_deg", "H_c")
+    assert [unit_of(name) for name in names] == ["W", "N m", "N", "deg", "1"]
     # an unknown value is NaN, and no attribute
     assert np.isnan(float(solved.mu_ratio))
     assert "mu_ratio" not in summary_of(solved)
@@ -198,7 +204,7 @@ def test_response_is_read_as_it_was_written(tmp_path: Path, monkeypatch):
 
 
 def test_no_solution_raises_with_the_last_fields(fractal: Path, tmp_path: Path):
-    with pytest.raises(pyehl.NotConverged, match="no solution") as caught:
+    with pytest.raises(pyehl.NotConverged, match="not converged") as caught:
         pyehl.solve(fractal, output=tmp_path / "out")
     assert isinstance(caught.value, pyehl.EhlError)
     same(caught.value.results, pyehl.load(tmp_path / "out"))

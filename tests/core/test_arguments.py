@@ -175,7 +175,10 @@ def test_faults_of_the_package_stay_what_they_are(cases: Path, tmp_path: Path, m
     assert not isinstance(caught.value, pyehl.EhlError)
 
 
-@pytest.mark.parametrize("damage", ["short array", "array", "large array", "summary", "encoding"])
+@pytest.mark.parametrize(
+    "damage",
+    ["short array", "array", "large array", "summary", "no object", "encoding", "cell", "no rows"],
+)
 def test_damaged_result_folder(quick: str, tmp_path: Path, damage: str):
     pyehl.solve(quick, SMALL, output=tmp_path / "out")
     array, summary = tmp_path / "out" / "P.npy", tmp_path / "out" / "summary.json"
@@ -188,10 +191,14 @@ def test_damaged_result_folder(quick: str, tmp_path: Path, damage: str):
             stream.truncate(2**41)
     elif damage == "summary":
         summary.write_text(summary.read_text()[:50])
+    elif damage == "no object":
+        summary.write_text("[]")
+    elif damage in ("cell", "no rows"):
+        (tmp_path / "out" / "history.csv").write_text("T,mu\n0.0,x\n" if damage == "cell" else "")
     else:
         summary.write_bytes(b"\xff" + json.dumps({}).encode())
     kind = pyehl.errors.NoMemoryError if damage == "large array" else pyehl.FileError
-    with pytest.raises(kind, match=r"P\.npy|summary\.json"):
+    with pytest.raises(kind, match=r"P\.npy|summary\.json|history\.csv"):
         pyehl.load(tmp_path / "out")
 
 

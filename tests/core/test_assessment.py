@@ -31,6 +31,22 @@ def test_no_solution():
     assert str(conclude(none | {"message": "too coarse"})) == f"{stated}: too coarse"
 
 
+@pytest.mark.parametrize(
+    ("shape", "words"),
+    [
+        ({}, "the contact radius is 0.20 of the radius of curvature (p_h/E' = 0.064)"),
+        (
+            {"shape": "line"},
+            "the half width of the contact is 0.20 of the radius of curvature (p_h/E' = 0.050)",
+        ),
+    ],
+)
+def test_wide_contact(shape: dict[str, str], words: str):
+    """Hertz: p_h/E' is a/(pi R) of a circle, and b/(4 R) of a line."""
+    values = GOOD | {"hertz_radius_m": 1e-4, "film_scale_m": 2e-5} | shape
+    assert words in assess(values).text
+
+
 def test_smooth_contact_without_a_size():
     values = {
         "status": "converged",
