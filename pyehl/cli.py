@@ -35,7 +35,7 @@ SUBCOMMANDS = {
     "surface": "write the surface of a case as a height map",
     "film": "film formulas side by side for a case",
     "lubricants": "oils by name: constants, ranges, sources",
-    "fit-lubricant": "a shear law fitted to a measured traction curve",
+    "fit-lubricant": "a shear law or alpha fitted to a measured traction or film curve",
     "plot": "pictures of a result folder",
     "report": "write a result as one HTML page",
     "export": "a result folder as netCDF",

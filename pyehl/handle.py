@@ -64,9 +64,16 @@ def _arguments(given: tuple[Array | None, Array | None]) -> tuple[int, Array, in
 
 
 class SolverHandle:
-    """A solver on the text of a resolved case, with heights [m] (nx, ny) in place of files.
+    """A solver on the text of a resolved case, with heights in place of files.
 
     A ``with`` block closes it at the end.
+
+    Parameters
+    ----------
+    text
+        Resolved namelist text.
+    heights, second_heights
+        Heights of &surface and &second_surface [m], (nx, ny), peaks positive; None: as in the case.
 
     Attributes
     ----------
@@ -157,7 +164,7 @@ class SolverHandle:
         Raises
         ------
         InputError
-            If the state is damaged, or belongs to another case.
+            If every state is damaged, or the state belongs to another case or version.
         """
         folder = os.fsencode(path_of(results, "the result folder"))
         return returned(*self._call(ehl.resume, folder))
@@ -165,14 +172,17 @@ class SolverHandle:
     def checkpoint(
         self, results: str | os.PathLike[str], resumed: str | os.PathLike[str] = ""
     ) -> str:
-        """Save states of a transient run in ``RESULTS.checkpoint`` at the interval of the case.
+        """Prepare ``RESULTS.checkpoint`` for the states of a transient run, see `save_state`.
+
+        The folder of the results is locked until the solver is closed. There are no states without
+        time steps, or with output.checkpoint_interval = 0.
 
         Parameters
         ----------
         results
             Result folder of the run.
         resumed
-            Result folder of the run that `resume` resumes.
+            Result folder of the run that `resume` resumes; '': none.
 
         Returns
         -------
@@ -181,6 +191,8 @@ class SolverHandle:
 
         Raises
         ------
+        InputError
+            If the folder holds other files, or another run writes these results.
         FileError
             If the folder cannot be made.
         """
@@ -195,7 +207,12 @@ class SolverHandle:
         return returned(*note)
 
     def save_state(self, *, at_once: bool = False) -> bool:
-        """Save the state if it is due, or at once; whether a saved state exists then.
+        """Save the state if the interval of the case has passed, or at once.
+
+        Returns
+        -------
+        bool
+            If at once, whether a saved state exists; otherwise False.
 
         Raises
         ------
@@ -232,7 +249,15 @@ class SolverHandle:
         return x, y
 
     def field(self, name: str) -> Array:
-        """Pressure 'P' or film 'H', shape (nx, ny), Fortran order.
+        """Give a field on the finest grid, shape (nx, ny), Fortran order.
+
+        Parameters
+        ----------
+        name
+            'P' or 'H'; of a rough contact, after the smooth one, also 'P_smooth', 'H_smooth', 'RR'
+            or 'A_d' (see `pyehl.load`); with frictional heating 'temperature_rise_K',
+            'temperature_rise_wall_1_K' or 'temperature_rise_wall_2_K'. Lengths and pressures are in
+            Hertz units, temperatures in K.
 
         Raises
         ------

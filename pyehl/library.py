@@ -38,8 +38,8 @@ def free_bytes(root: str = "") -> float:
 def checkpoint_case(results: str | os.PathLike[str]) -> Path:
     """Case file of the transient run of a result folder, to resume it.
 
-    ``surface.npy`` is beside it if the surface of the run came from Python. InputError if no state
-    was saved.
+    ``surface.npy`` and ``second_surface.npy`` are beside it for surfaces whose heights Python
+    passed. InputError if there is no checkpoint.
     """
     path, status, message = functions.checkpoint_case(os.fsencode(results))
     check(status, message)
@@ -89,8 +89,8 @@ def deflection(
     The integral of Zhang et al. 2019, eq. 2, in Hertz units: P by p_h, lengths and mesh sizes by a,
     W by a^2/R. The engine is 'mlmi' or 'fft'; `mirror`: the rows are those with Y >= 0 of a
     pressure that is symmetric in Y; `accuracy` is the maximum error of 'mlmi' relative to the
-    maximum deflection; `repeats` applications, for timing. InputError if the engine does not exist
-    or does not support the grid.
+    maximum deflection; `threads` are OpenMP threads, and `repeats` applications are for timing.
+    InputError if the engine does not exist or does not support the grid.
     """
     p = np.asfortranarray(pressure, dtype=np.float64)
     w = np.empty(p.shape, order="F")

@@ -61,9 +61,10 @@ def memory(size: float) -> str:
 
 
 def with_error(value: float, error: float, decimals: int, unit: str, error_digits: int = 2) -> str:
-    """Write a number with its error to two digits: '1.185 +- 0.048', '2.6435E-06 +- 5.5E-09'.
+    """Write a number with its error to `error_digits`: '1.185 +- 0.048', '2.6435E-06 +- 5.5E-09'.
 
-    A number whose error is not known (not finite) has `decimals`.
+    With an exponent the error has two digits. A number whose error is not known (not finite) has
+    `decimals`.
     """
     if not math.isfinite(error):
         return f"{fixed(value, decimals)}{unit}, error not known"

@@ -86,10 +86,30 @@ def resume(
 ) -> Outcome:
     """Resume a transient run that was stopped; the results are those of an uninterrupted run.
 
-    `results` is the result folder of the run, with its state beside it in ``RESULTS.checkpoint``;
-    the results go to `folder`, by default the same. A `case`, or `options` on the saved one, may
-    change the threads, when to stop and what to write. InputError if there is no state, if every
-    state is damaged, or if it belongs to another case; EhlError as in `run`.
+    Parameters
+    ----------
+    results
+        Result folder of the run, with its state beside it in ``RESULTS.checkpoint``.
+    folder
+        Where the results go; None: to `results`.
+    case
+        The case, which may change the threads, when to stop and what to write; None: the saved one.
+    options
+        Such changes of the saved case; not used with a `case`.
+    say, advanced, force, inputs
+        As in `run`.
+
+    Returns
+    -------
+    Outcome
+        How the run ended.
+
+    Raises
+    ------
+    InputError
+        If there is no checkpoint, every state is damaged, or it belongs to another case.
+    EhlError
+        As in `run`.
     """
     kept = library.checkpoint_case(results)
     if case is None:
@@ -165,12 +185,37 @@ def run(
 ) -> Outcome:
     """Solve a case and write the result folder, whether or not the run converges.
 
-    The run continues from the state beside the result folder `resumed`, or starts anew. `say`
-    receives messages, `advanced` the solver after each cycle or step. The folder is new or empty,
-    or has results of an earlier run, which are replaced; `force`: other files in it stay. A folder
-    with one of the `inputs`, the files of the case, is not replaced. InputError if the folder holds
-    something other than results, or cannot be written; EhlError if the solver failed: nothing is
-    written then.
+    Parameters
+    ----------
+    case
+        The case.
+    folder
+        A new or empty folder, or one with results of an earlier run, which are replaced.
+    resumed
+        Result folder of a run from whose state this one continues; '': it starts anew.
+    say
+        Receives messages.
+    advanced
+        Receives the solver after each cycle or step.
+    force
+        Accept other files in the folder; they stay.
+    inputs
+        Files of the case, the case file first; a folder with one of them is not replaced.
+    surface, second_surface
+        Rough surfaces in place of those of the case, as in `pyehl.solve`.
+
+    Returns
+    -------
+    Outcome
+        How the run ended.
+
+    Raises
+    ------
+    InputError
+        If the case is not acceptable, or the folder holds something other than results, or cannot
+        be written.
+    EhlError
+        If the solver failed: nothing is written then.
     """
     inputs = tuple(inputs)
     sources = (*inputs, *files_of(case.resolve()))

@@ -16,16 +16,22 @@ from pyehl.plots.style import Scales
 from pyehl.prediction.result import Prediction
 from pyehl.types import Array
 
+# Half width of the pictures over that of the dry contact
 VIEW = 1.3
-# Minimum number of pixels per side of the fringes
+# Minimum number of pixels of the longer side of the fringes
 PIXELS = 240
+# Number of contours from the minimum film to the maximum one
 LEVELS = 20
 MAX_FILM = 1.6
 """Maximum film of the colours and the contours, over the central film."""
 
 
 class Map(NamedTuple):
-    """The film around the contact: colours (n, m) as RGBA, film (n, m) [nm], edges [mm]."""
+    """The film around the contact: colours as RGBA, film (n, m) [nm], nodes x (m,), y (n,) [mm].
+
+    The colours have one or more pixels per node, on a rectangle from left and bottom with a width
+    and a height [mm].
+    """
 
     colours: NDArray[np.uint32]
     film: Array

@@ -185,7 +185,7 @@ class Position:
         return (*controls, self.modulus, self.base, self.oil)
 
     def map_message(self) -> dict[str, Value]:
-        """Give the keys of the case for its height map, as in `Uploads.check`."""
+        """Give the keys of the case that `Uploads.check` takes for its height map."""
         kept = namelist.values(self.base).get("surface", {})
         keys = ("channel", "height_unit", "lateral_unit")
         result = {key: kept[key] for key in keys if key in kept}

@@ -182,14 +182,17 @@ def resolved_case(text: str) -> Case:
 
 
 def files_of(settings: Settings) -> list[str]:
-    """Give the files that a resolved case reads: height maps, tables of viscosities and duty."""
+    """Give the files of a resolved case: height maps, tables of viscosities and of a duty.
+
+    Tables of roller profiles are not among them: a resolved case has their values.
+    """
     maps = [group["file"] for group in settings.values() if group.get("kind") == "map"]
     tables = settings["lubricant"].get("table"), settings.get("duty", {}).get("file")
     return [str(name) for name in (*maps, *tables) if name]
 
 
 def exchanged(case: Case) -> Case:
-    """Give a case with its surfaces, and their bodies, exchanged."""
+    """Give the same contact with the groups of its surfaces exchanged; each stays on its body."""
     groups = case.resolve()
     contact = {**groups["contact"], "rough_surface": 3 - groups["contact"]["rough_surface"]}
     second = groups.get("second_surface", {"kind": "smooth"})

@@ -25,8 +25,8 @@ MIN_M, MAX_M = 0.1, 1e5
 MIN_STRAIN = 4e-7
 # Difference below which velocity ratios are equal
 ROUNDING = 1e-9
-# Keys of the operating point, and their usual ranges in powers of ten around the default; around
-# the radius of the ball for radii of bodies
+# Keys of the operating point, and their usual ranges in powers of ten around the default; for all
+# radii around the default of contact.radius
 COMMON = {
     "contact.load": 3.0,
     "contact.load_per_length": 3.0,
@@ -68,7 +68,7 @@ def is_light(moes_m: float, pressure: float, modulus: float) -> bool:
 
 
 def check_operating_point(draft: Draft) -> None:
-    """Refuse implausible SI values of a contact, mostly mistakes in the units."""
+    """Refuse Moes numbers beyond the solver, and implausible SI values: often mistakes in units."""
     c, oil = draft.settings.contact, draft.settings.lubricant
     point = physics.point(draft.settings)
     too_large = (
@@ -185,7 +185,7 @@ def _sliding(side: float, ratio: float) -> float:
 
 # Relative difference below which values are equal
 ROUNDING_OF_RADII = 1e-6
-# Keys that &bodies exclude unless they agree
+# Keys that &bodies exclude; reduced radii and modulus only if they differ from those of the bodies
 EXCLUDED = ("radius_x", "radius_y", "reduced_modulus", "radius", "moes_m", "moes_l", "radius_ratio")
 EXCLUDED_OF_LINE = ("radius", "reduced_modulus", "moes_m_line", "moes_l_line")
 

@@ -222,7 +222,10 @@ def refuse_duty(settings: Mapping[str, object]) -> None:
 
 
 def widening(settings: Settings) -> float:
-    """Give the maximum size of the dry contact under the duty over that of the case."""
+    """Give the maximum size of the dry contact under the duty over that of the case.
+
+    By load and radius_x; an effect of radius_y is not included.
+    """
     duty, contact = settings.duty, settings.contact
     load = contact.load_per_length if contact.is_line else contact.load
     loads = duty.load or (load,) * len(duty.time)
@@ -241,7 +244,7 @@ def reverses(settings: Settings) -> bool:
 
 
 def read_duty(path: str, *, is_line: bool) -> Table:
-    """Read a file by columns, in SI units; an error names its line."""
+    """Read a file by columns, in SI units, temperatures in degC; an error names its line."""
     text = read_text(path, f"a table over time, {HEADER}")
     source = Source(path, text.replace("\r", " ") + "\n")
     lines = source.rows()

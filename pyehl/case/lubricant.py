@@ -201,7 +201,10 @@ def _check_roelands(draft: Draft) -> None:
 
 
 def check_law(draft: Draft) -> None:
-    """Refuse laws without a viscosity or density at some pressure of the contact."""
+    """Refuse a law whose viscosity or density does not increase up to 1.5 times p_h.
+
+    Simple laws increase up to any pressure, and are not checked.
+    """
     oil = draft.settings.lubricant
     simple = oil.viscosity_law in SIMPLE_VISCOSITY, oil.density_law in SIMPLE_DENSITY
     hertz = physics.point(draft.settings).pressure
@@ -230,7 +233,10 @@ def check_law(draft: Draft) -> None:
 
 
 def check_shear_law(draft: Draft) -> None:
-    """Refuse a shear law without its parameters; one with a stress needs a contact in SI units."""
+    """Refuse a shear law without its parameters or without SI units, and two limits of the stress.
+
+    All but the Newtonian law need a contact in SI units.
+    """
     oil = draft.settings.lubricant
     if oil.limiting_stress > 0.0 and draft.is_given("lubricant", "limiting_coefficient"):
         expected = "one of the two, or limiting_stress = 0.0"
@@ -247,7 +253,10 @@ def check_shear_law(draft: Draft) -> None:
 
 
 def check_boundary_film(draft: Draft) -> None:
-    """Refuse a boundary film of a contact without SI units, keys that need one, a low hardness."""
+    """Refuse a boundary film without SI units or with Alcouffe coarsening; keys that need one.
+
+    A hardness must exceed the Hertz pressure.
+    """
     settings = draft.settings
     film, friction = settings.lubricant.boundary_film, settings.lubricant.boundary_friction
     hardness = settings.contact.hardness
@@ -404,7 +413,10 @@ def _need(draft: Draft, key: str, value: str, velocity: str, others: tuple[str, 
 
 
 def check_density(draft: Draft) -> None:
-    """Refuse a law of density without its constants, or with a second expansion coefficient."""
+    """Refuse a law of density without its constants, or with a second expansion coefficient.
+
+    Also refuse a range of temperatures whose ends are exchanged.
+    """
     oil = draft.settings.lubricant
     law = f"lubricant.density_law = '{oil.density_law}'"
     missing = f"{law} without its constants"

@@ -44,6 +44,8 @@ class Machine:
         Its group, one of `MACHINES`.
     values
         The group, typed.
+    draft
+        The file as it was read, with the places of the given keys.
     """
 
     kind: str
@@ -113,7 +115,8 @@ class Machine:
         """Resolve the case of one contact with values by ``group.key``.
 
         Without `bodies` it has the reduced modulus in their place; `may_be_light` as in `Draft`. If
-        the case is not acceptable, InputError points to the machine, and `place` names the contact.
+        the case is not acceptable, InputError points to the machine; `place` names the contact with
+        a value out of range.
         """
         draft = Draft(copy.deepcopy(self.draft.settings), self.draft.sources)
         draft.may_be_light = may_be_light

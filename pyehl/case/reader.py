@@ -46,6 +46,17 @@ def read(text: str, origin: str, options: Iterable[str] = ()) -> Draft:
     options
         Options group.key=value that replace values of the text, after '--set ' if they come from
         the command line.
+
+    Returns
+    -------
+    Draft
+        Its values and the places of the given keys; values that a resolved case marks as derived
+        count as given only where they differ from those that follow from the other keys.
+
+    Raises
+    ------
+    InputError
+        With name, line and column, what was expected, and the nearest name.
     """
     sources = [
         Source(origin, text + "\n"),

@@ -52,7 +52,10 @@ def unused(contact: Contact) -> Iterator[str]:
 
 
 def complete(draft: Draft) -> None:
-    """Read the table of a profile, unless it is missing and the resolved case has it."""
+    """Read the table of a profile, unless its values are given.
+
+    In a resolved case they count as given if the file is missing or has changed.
+    """
     c = draft.settings.contact
     for end in BODIES:
         key = f"profile_file{end}"
@@ -169,7 +172,10 @@ def _check_body(draft: Draft, own: Profile, end: str) -> None:
 
 
 def _end_drop(c: Contact) -> float:
-    """Drop of both profiles together at the end of the roller [m]."""
+    """Drop of both profiles together at the end of the roller [m].
+
+    Of a table its largest value, of a logarithmic profile that at 99.8 % of half the length.
+    """
     drops = 0.0
     for own in (c.of_body(1), c.of_body(2)):
         if own.kind == "crown":

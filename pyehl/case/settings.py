@@ -148,6 +148,6 @@ class Draft:
             # in a namelist it equals the name without the blank
             self.refuse(name, f"{name}: the name ends with a blank", "a file of another name")
         if len(os.fsencode(path)) > LONGEST_PATH:
-            what = f"{name}: the full name is longer than {LONGEST_PATH} characters"
+            what = f"{name}: the full name is longer than {LONGEST_PATH} bytes"
             self.refuse(name, what, "a shorter path")
         return path

@@ -15,7 +15,7 @@ MAX_SEED = 2147483647
 FRACTAL_LENGTH = 8.29e-4
 # Rq over Ra of normally distributed heights
 RQ_OVER_RA = math.sqrt(0.5 * math.pi)
-# Position X of the front of roughness that reaches the contact, and of one that has passed it [a],
+# Position X of the front of roughness that reaches the contact, and of one that has filled it [a],
 # as in fortran/surface
 X_MATTERS, X_FILLED = -1.25, 1.05
 # Time in which the film made in the inlet passes the contact [a/u]
@@ -134,7 +134,7 @@ def check(draft: Draft) -> None:
 
 
 def _check_height(draft: Draft, group: str, surface: Surface) -> None:
-    """Refuse two heights, and the height of a fractal surface for another kind."""
+    """Refuse two heights, and Ra, Rq or a finish of a surface that is not fractal."""
     rms = draft.is_given(group, "rms_height")
     has = {"rms_height": rms, "ra": surface.ra > 0.0, "rq": surface.rq > 0.0}
     names = [f"{group}.{key}" for key, there in has.items() if there]
@@ -149,7 +149,10 @@ def _check_height(draft: Draft, group: str, surface: Surface) -> None:
 
 
 def _check_feature(draft: Draft, group: str, surface: Surface) -> None:
-    """Refuse a size given twice or in metres without SI units, and a start in the contact."""
+    """Refuse a spacing that does not apply, a size given twice or in metres without SI units.
+
+    A moving feature must not start in the contact.
+    """
     if surface.spacing_y > 0.0 and not (surface.is_feature and draft.settings.contact.is_line):
         key = f"{group}.spacing_y"
         what = f"{key} = {short(surface.spacing_y)}: no single feature repeats along Y"

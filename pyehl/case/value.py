@@ -68,7 +68,7 @@ def value_of(key: Key, value: Token, *, is_option: bool) -> Value:
             raise BadValue("no such choice")
         return word
     if len(value.text.encode(errors="surrogateescape")) > LONGEST_PATH:
-        raise BadValue(f"longer than {LONGEST_PATH} characters")
+        raise BadValue(f"longer than {LONGEST_PATH} bytes")
     return value.text
 
 

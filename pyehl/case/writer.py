@@ -12,7 +12,7 @@ OPTIONAL = (
     *("name", "table", "inlet_law"),
     *("table_temperature", "table_pressure", "table_viscosity"),
 )
-"""Keys of the lubricant that are written where they have an effect."""
+"""Keys of the lubricant that are written where they have a value."""
 LINE_ALONE = ("shape", "load_per_length", "moes_m_line", "moes_l_line")
 POINT_ALONE = ("load", "moes_m", "moes_l", "radius_ratio", "angle")
 """Keys of a line, and keys that a line does not have."""
@@ -126,15 +126,7 @@ def _of_contact(settings: Settings) -> Iterator[str]:
 
 def _of_lubricant(settings: Settings) -> Iterator[str]:
     oil = settings.lubricant
-    optional = (
-        "name",
-        "table",
-        "inlet_law",
-        "table_temperature",
-        "table_pressure",
-        "table_viscosity",
-    )
-    yield from (key for key in optional if not getattr(oil, key))
+    yield from (key for key in OPTIONAL if not getattr(oil, key))
     if oil.alpha_origin == "given":
         yield "alpha_origin"
     sheet = oil.kinematic_viscosity_40 > 0.0

@@ -87,9 +87,9 @@ def _inlet(settings: Settings) -> tuple[float, float]:
 def sheet(settings: Settings) -> dict[str, Any]:
     """Return all that ``pyehl film`` reports of a resolved case, as plain numbers in SI units.
 
-    Inputs, Moes and Hertz numbers, one record per formula, and for a rough surface the Lambda
-    ratio and (harmonic only) theta_2 with eq. 16. An ellipse rotated against the motion has no
-    formulas, so its summary has no film.
+    Inputs, Moes and Hertz numbers, one record per formula, for a rough surface h_c over its rms
+    height, and for a waviness in a circular contact theta_2 with eq. 16. An ellipse rotated against
+    the motion has no formulas, so its summary has no film.
     """
     operating, lubricant = contact_of(settings), Lubricant.from_settings(settings)
     line = "_line" if isinstance(operating, LineContact) else ""
@@ -254,7 +254,7 @@ def _cell(value: float | None, width: int, digits: int) -> str:
 
 
 def report(values: Mapping[str, Any]) -> str:
-    """Return the page that ``pyehl film`` prints, from the summary of a :func:`pyehl.film`."""
+    """Return the page that ``pyehl film`` prints, from the summary of `pyehl.film`."""
     v = values
     line = v.get("shape") == "line"
     moes_m, moes_l = ("moes_m_line", "moes_l_line") if line else ("moes_m", "moes_l")

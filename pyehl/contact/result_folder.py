@@ -17,11 +17,11 @@ from pyehl.types import Settings
 
 
 def read_contact(folder: str | Path, operating: AnyContact, settings: Settings) -> SmoothContact:
-    """Read pressure and film of a smooth contact, or of the smooth contact of a transient run.
+    """Read pressure and film of a smooth contact, or of the smooth contact of a rough run.
 
     InputError if the folder has no converged solution of the same contact: M and L, ratio of the
     radii along and across the motion, shear law of the flow, lubricant and border of the domain.
-    The grid may differ.
+    The grid may differ. A rotated ellipse and solid contact are refused, too.
     """
     folder = Path(folder)
     try:

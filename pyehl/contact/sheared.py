@@ -143,7 +143,11 @@ class HertzContact(ShearedContact):
         self.smooth = float(self.stress(self.semi_ellipse, np.array(film)).sum())
 
     def friction(self, position: tuple[float, float]) -> float:
-        """Integral of the shear stress over that of the smooth contact, for a position."""
+        """Integral of the shear stress over that of the smooth contact [-].
+
+        `position` is the shift of the tile in whole pixels. NaN where the film ends, or the
+        roughness alone carries the load that is to be balanced.
+        """
         pixels = [int(number) for number in position]
         moved = [np.roll(v, pixels, (0, 1)) for v in (self.pressure, self.deformed)]
         delta, deformed = (values.ravel().take(self.index) for values in moved)
@@ -174,7 +178,7 @@ def _lattice(radius: float, pixels: int) -> tuple[Indices, int]:
 
     The stride is 1 unless the tile is much shorter than the contact and finely sampled. Then a
     stride without common divisor with the tile visits all its pixels in turn, at MIN_SAMPLES points
-    per radius of the contact, and each pixel of the tile at eight positions in the contact.
+    or more per radius of the contact, and each pixel at eight positions or more along a diameter.
     """
     half = int(radius)
     stride = max(1, half // max(MIN_SAMPLES, 4 * pixels))

@@ -195,7 +195,8 @@ def _linear(places: Array, axis: Array) -> tuple[NDArray[np.intp], Array]:
 def solve_contact(settings: Settings) -> SmoothContact:
     """Solve the smooth contact of a resolved case on POINTS x POINTS nodes, or on a finer grid.
 
-    The last few are cached, see `smooth_case`. EhlError if no grid up to FINEST converges.
+    A line contact has one row of POINTS_OF_LINE nodes or more. The last few are cached, see
+    `smooth_case`. EhlError if no grid up to FINEST, or FINEST_OF_LINE, converges.
     """
     result = solved_text(smooth_case(settings))
     if not ShearLaw.from_settings(settings).in_flow:
@@ -237,7 +238,7 @@ def circle_of(
 
 
 def forget() -> None:
-    """Solve anew what was kept, as `pyehl bench skips` does to see what keeping saves."""
+    """Clear the caches of solved contacts, as `benchmarks/skips.py` needs to time a solution."""
     solved_text.cache_clear()
     _solved_with_boundary_film.cache_clear()
 

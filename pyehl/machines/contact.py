@@ -133,6 +133,8 @@ class Film:
 
     Attributes
     ----------
+    contact
+        The contact.
     text, settings
         The resolved case, as text and by groups.
     point
@@ -196,9 +198,10 @@ def film_of(contact: Contact, machine: Machine) -> Film:
     """Return the film of a contact by formulas.
 
     Central film: Nijenbanning-Venner-Moes, for lines Moes 1992; minimum film: Hamrock-Dowson 1977,
-    for lines Dowson-Higginson. In the rigid regime, as for some elements at the edge of the load
-    zone, the minimum is the central film of a formula for rigid bodies. InputError if the case of
-    the contact is not valid.
+    for lines Dowson-Higginson. Where alpha is 0, h_min is by Hamrock-Dowson 1978 for soft bodies,
+    and NaN for lines. In the rigid-isoviscous regime, as for some elements at the edge of the load
+    zone, h_min of an ellipse is the film of Brewe, Hamrock & Taylor 1979, and that of a line its
+    central film. InputError if the case of the contact is not valid.
     """
     text = contact.case_text(machine)
     settings = values(text)

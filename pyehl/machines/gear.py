@@ -88,6 +88,14 @@ class GearPair:
 
     Attributes
     ----------
+    mesh
+        Its geometry.
+    input_power
+        Torque times angular velocity of the pinion [W].
+    angular_velocity
+        Of the pinion [rad/s].
+    contacts
+        Contacts along the path of contact.
     places
         For each contact the distance from the pitch point [m], pinion angle [deg] and load share.
     facts
@@ -95,8 +103,8 @@ class GearPair:
     """
 
     mesh: Mesh
-    input_power: float  # [W]
-    angular_velocity: float  # of the pinion [rad/s]
+    input_power: float
+    angular_velocity: float
     contacts: list[Contact] = field(default_factory=list)
     places: list[dict[str, Any]] = field(default_factory=list)
     facts: dict[str, float] = field(default_factory=dict)
@@ -196,9 +204,10 @@ def _check_tip(
 
 
 def stations(mesh: Mesh, count: int) -> Array:
-    """About `count` positions on the path [m], with A, B, C, D and E, evenly spaced between them.
+    """About `count` positions on the path [m], with A, B, D and E, evenly spaced between them.
 
-    B and D occur twice, once with two pairs in mesh and once with one.
+    B and D occur twice, once with two pairs in mesh and once with one. The pitch point C is a
+    station if it lies between B and D.
     """
     first, last = mesh.single
     begin, end = mesh.ends

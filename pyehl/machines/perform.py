@@ -51,6 +51,10 @@ class Prepared:
 
     Attributes
     ----------
+    run
+        One of `RUNS`.
+    machine, made
+        The machine element as it was read, and with its contacts under load.
     films
         Its contacts with their films by formulas.
     tasks
@@ -233,6 +237,8 @@ def bearing(
     ------
     InputError
         If the dimensions or loads of the bearing are not possible, or `output` has other files.
+    FileError
+        If `output` cannot be written.
     KeyboardInterrupt
         If it was interrupted; `output` has all that was finished.
 
@@ -279,6 +285,8 @@ def gear(
     ------
     InputError
         If the gears are not possible or do not mesh, or `output` has other files.
+    FileError
+        If `output` cannot be written.
     KeyboardInterrupt
         If it was interrupted; `output` has all that was finished.
 

@@ -35,18 +35,26 @@ class Deviation:
 def deviations(curve: Curve, places: Array, values: Array) -> list[Deviation]:
     """Compare per decade of the condition, then over the whole range.
 
+    Only the whole range if it is less than a decade, or a place or a computed value is not
+    positive.
+
     Parameters
     ----------
     curve
         The measurements.
     places, values
-        The computed curve (n,), in the units of the measured one; interpolated in logarithms where
-        both are positive, else linearly.
+        The computed curve (n,), in the units of the measured one; interpolated in logarithms if it
+        and the measured places are all positive, else linearly.
+
+    Returns
+    -------
+    list of Deviation
+        Ranges with measured points that the computed curve reaches.
 
     Raises
     ------
     InputError
-        If the computed curve reaches none of the measured points.
+        If the computed curve has fewer than two values, or reaches none of the measured points.
     """
     known = np.isfinite(places) & np.isfinite(values)
     order = np.argsort(places[known])

@@ -87,7 +87,10 @@ def quantity_of(cell: str) -> Quantity | None:
 
 
 def in_si(quantity: Quantity, cell: str, values: Array) -> Array:
-    """Convert values of a column; for an unknown unit ValueError with the known ones."""
+    """Convert values of a column to the unit of its quantity.
+
+    ValueError with the known units for an unknown one.
+    """
     unit = quantity.unit if cell.strip() == quantity.name else label_of(cell)[1]
     factors = FACTORS[quantity.unit]
     if unit not in factors:

@@ -64,7 +64,8 @@ def read_rig(path: str | os.PathLike[str]) -> RigFile:
     Raises
     ------
     InputError
-        If the file is none of these, or has no measurements; names the columns of the file.
+        If the file cannot be read, is none of these, or has no measurements; then with the names of
+        its columns.
     """
     name = os.fspath(path)
     lines = _text(path).splitlines()

@@ -90,8 +90,9 @@ def averaged(steps: Sequence[Step], quantity: Quantity, over: Quantity) -> Curve
 def _groups(places: Array) -> list[Array]:
     """Return indices of ascending conditions grouped into repeats of one set point.
 
-    Neighbours are repeats if they differ by less than `SAME` and `NEARER` times the median gap
-    between set points; a finely stepped curve has no repeats.
+    Neighbours are repeats if their relative difference is at most `SAME` and `NEARER` times the
+    median of the gaps of `SAME` or more; without such gaps, in a finely stepped curve, only equal
+    conditions are repeats.
     """
     gaps = np.diff(places) / np.maximum(np.abs(places[1:]), 1e-300)
     large = gaps[gaps >= SAME]

@@ -81,11 +81,12 @@ class Resolution:
 def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Resolution | None:
     """Predict what the grid of a case resolves.
 
-    None if no surface is a moving map or fractal, and if the grid resolves all waves. `tiles` are
-    the surfaces by group, on their tracks and before their spectrum is cut; a tile may be a part
-    of a large surface. A surface that is not given is made from the case, and of a large one only
-    :func:`pyehl.surfaces.part_of` is used. EhlError if the smooth contact has no solution, or the
-    prediction gives no ratio; InputError or FileError if a surface is not usable.
+    None if no surface is a moving map or fractal, the case has a duty, or the grid resolves all
+    waves. `tiles` are the surfaces by group, on their tracks and before their spectrum is cut; a
+    tile may be a part of a large surface. A surface that is not given is made from the case, and of
+    a large one only :func:`pyehl.surfaces.part_of` is used. EhlError if the smooth contact has no
+    solution, or the prediction gives no ratio; InputError or FileError if a surface is not usable,
+    and InputError if the case cannot be predicted.
     """
     settings = case.resolve()
     groups = surfaces.rough_groups(settings) if "duty" not in settings else []
