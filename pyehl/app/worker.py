@@ -81,7 +81,7 @@ class Worker:
             return not self.closed and self.generation == generation
 
     def close(self) -> None:
-        """End the thread, after the present cycle of a film, or after a prediction or a download."""
+        """End the thread after the present cycle of a film, or after a prediction or a download."""
         with self._changed:
             self.closed = True
             self._job = None
