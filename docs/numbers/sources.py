@@ -45,7 +45,7 @@ def guard() -> Values:
         "|---|---|---|---|",
     ]
     for degree, (limit, sweep, correction) in enumerate(zip(*result.values(), strict=True), 1):
-        change = "1" if limit == 1.0 else f"1/{limit:g}"
+        change = "–" if limit == 1.0 else f"1/{limit:g}"
         lines.append(f"| {degree} | {change} | {sweep:g} | {correction:g} |")
     result |= constants("solve/smooth_contact.f90", "max_residual")
     names = "undamped_after patience stalled stalls_after max_growth"
