@@ -245,8 +245,9 @@ class Grid:
     border: str = word(
         "zero",
         "flooded|zero",
-        "pressure at the border: that of a fully flooded contact, or P = 0; default: flooded "
-        "below M = 500, above kappa = 4 and for a line contact",
+        "pressure at the border: that of a fully flooded contact, or P = 0; default: P = 0 "
+        "for a roller, a rotated ellipse, a duty or a starved inlet, otherwise flooded below "
+        "M = 500, above kappa = 4 and for an infinite line",
     )
     target_error: float = real(
         0.0, "-", "0 or [1e-5, 0.1]", "required relative error of H_c; 0: solve on the given points"
