@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Operating point, lubricant and closed formulas of circular contacts."""
+"""Operating conditions, lubricant, film formulas and the linear theory of roughness."""

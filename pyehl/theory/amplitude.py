@@ -97,7 +97,7 @@ def component_amplitude_ratio(
     """A_d/A_i in [0, 1] of the Fourier components of a point contact, 0 at q = 0.
 
     Wavenumbers qx, qy [rad/m] are broadcast together; `hertz_radius` in m; `convention` is one of
-    :data:`CONVENTIONS`.
+    :data:`CONVENTIONS`. InputError for another one, or if M or L is not positive.
     """
     wavelength, ratio = component_wavelength(qx, qy, convention)
     return amplitude_ratio(wavelength_parameter(wavelength / hertz_radius, moes_m, moes_l, ratio))

@@ -56,9 +56,8 @@ def _radial(z: Array, last: int) -> list[tuple[range, Array]]:
     result = []
     for m in range(last + 1):
         orders = range(m or 2, last + 1, 2)
-        if orders:
-            weighted = [_weight(n, m, values[n, m, -1]) * values[n, m, :-1] / z for n in orders]
-            result.append((orders, np.stack(weighted, axis=-1)))
+        weighted = [_weight(n, m, values[n, m, -1]) * values[n, m, :-1] / z for n in orders]
+        result.append((orders, np.stack(weighted, axis=-1)))
     return result
 
 

@@ -5,8 +5,8 @@ With the gap g without solid contact, the contact pressure p and a linear compli
 
     p >= 0,   g + G p + s >= 0,   p (g + G p + s) = 0,   s >= 0,   sum p <= load:
 
-s lifts all nodes alike and is zero unless the sum of p would exceed the load. The iteration also
-finds the nodes in contact, p > 0.
+s lifts all nodes alike and is zero unless the sum of p would exceed the load, or the iteration with
+s = 0 fails: then the sum of p is the load. The iteration also finds the nodes in contact, p > 0.
 """
 
 import math

@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass
 from functools import lru_cache
 
+from pyehl.errors import InputError
 from pyehl.given import positive
 
 
@@ -56,6 +57,10 @@ LINE = Ellipse(0.0, math.inf, 0.25 * math.pi)
 """Dry contact of an infinite line: its semi-axis across the motion is infinite."""
 
 
+RATIOS = (1e-6, 1e6)
+"""Minimum and maximum radius ratio of :func:`ellipse`, wider than those of a case."""
+
+
 @lru_cache(maxsize=64)
 def ellipse(radius_ratio: float) -> Ellipse:
     """Return the ellipse of R_x/R_y = `radius_ratio` [-]; a circle where it is 1.
@@ -66,7 +71,7 @@ def ellipse(radius_ratio: float) -> Ellipse:
     Raises
     ------
     InputError
-        For a ratio that is not positive.
+        For a ratio that is not positive, or outside 1e-6 ... 1e6.
 
     Examples
     --------
@@ -77,6 +82,8 @@ def ellipse(radius_ratio: float) -> Ellipse:
     ratio = positive("radius_ratio", radius_ratio, "-")
     if ratio == 1.0:
         return Ellipse(1.0, 1.0, 1.0)
+    if not RATIOS[0] <= ratio <= RATIOS[1]:
+        raise InputError(f"radius_ratio must be 1e-6 ... 1e6 [-], not {ratio!r}")
     from scipy.optimize import brentq  # noqa: PLC0415 (takes as long to load as all the rest)
     from scipy.special import elliprd  # noqa: PLC0415
 
@@ -84,7 +91,7 @@ def ellipse(radius_ratio: float) -> Ellipse:
         square = math.exp(2.0 * log_kappa)
         return math.log(elliprd(0.0, 1.0, square) / elliprd(0.0, square, 1.0) / ratio)
 
-    # kappa is within a factor of 4 of D^(-2/3) for all ratios that a case allows
+    # kappa is within a factor of 4 of D^(-2/3) for these ratios
     middle = -2.0 / 3.0 * math.log(ratio)
     kappa = math.exp(brentq(miss, middle - math.log(4.0), middle + math.log(4.0), xtol=1e-15))
     factor = 1.5 / (math.pi * kappa * float(elliprd(0.0, kappa**2, 1.0)))

@@ -23,7 +23,7 @@ __all__ = [
 ]
 
 # Conditions of the numerical cases of the Hamrock-Dowson formulas (J. Lubr. Technol. 99,
-# 1977, 264): 34 cases, speed over nearly two decades, load over one, bronze to silicon nitride.
+# 1977, 264): 34 cases, speed by a factor of 30, load by one of 10, bronze to silicon nitride.
 HAMROCK_DOWSON_RANGE = {
     "U": (1.68e-12, 5.05e-11),
     "W": (1.10e-7, 1.11e-6),
@@ -35,7 +35,7 @@ BREWE_RANGE = {"M": (0.0, 2.0), "R_x/R_y": (0.03, 1.0)}
 SOFT_RANGE = {"M": (8.0, 2000.0), "L": (0.0, 0.05)}
 # U of de Vicente et al.; at fixed M their exponents leave a dependence U^-0.005
 DE_VICENTE_RANGE = {"U": (1e-12, 1e-7), **SOFT_RANGE}
-# its exponents do not give one curve over M, as they should: h_c and h_min differ by 2 and 6 % per
+# its exponents do not give one curve over M, as they should: h_c and h_min differ by 6 and 2 % per
 # decade of U; on longer ellipses h_min is 10 to 15 % low
 HAMROCK_DOWSON_SOFT_RANGE = {"U": (1e-9, 1e-7), **SOFT_RANGE, "R_x/R_y": (0.8, 1.0)}
 # Relative tolerance of the bounds, for rounding
@@ -63,7 +63,8 @@ class FilmEstimate:
     outside
         Conditions outside the range of the formula, in words; empty when inside.
     note
-        Its accuracy; empty for an ellipse, for which it is hardly known.
+        Its accuracy, empty for an ellipse, for which it is hardly known; of a starved inlet, how
+        the film follows from the flooded one.
     """
 
     name: str
@@ -162,7 +163,8 @@ def outside(
 def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstimate]:
     """Return all formulas at an operating point, the best one of its regime first.
 
-    A formula with alpha as a factor is omitted where alpha is 0.
+    A formula with alpha as a factor is omitted where alpha is 0; those of Chittenden et al. and of
+    de Vicente et al. are for circles only.
     """
     u, g, w = operating.speed, operating.material, operating.load_number
     shape = operating.ellipse

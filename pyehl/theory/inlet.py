@@ -23,14 +23,13 @@ from functools import lru_cache
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.theory.transport import INLET, Flow, Zone, stiffness, upstream
+from pyehl.types import Array, Complex
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
-
-# Spacing of the nodes, first and last node, downstream edge of the contact [a]; INLET is a node
+# Spacing of the nodes, first and last node to the nearest spacing, downstream edge of the contact
+# [a]; INLET is a node
 SPACING, START, END, EDGE = 1.0 / 64.0, -1.6, -0.6, 1.0
 # Quadrature of the kernel over a cell of constant pressure, except the cell with the singularity
 GAUSS = np.polynomial.legendre.leggauss(4)

@@ -19,7 +19,12 @@ from pyehl.theory.film import FilmEstimate, outside
 from pyehl.theory.heat import thermal_loading, thermal_reduction
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.moes_film import ALIKE, inlet_viscosity_ratio, nijenbanning_venner_moes
-from pyehl.theory.operating import REFERENCE_L, REFERENCE_MODULUS, REFERENCE_RADIUS, OperatingPoint
+from pyehl.theory.operating import (
+    REFERENCE_MODULUS,
+    REFERENCE_RADIUS,
+    OperatingPoint,
+    twice_speed_number,
+)
 from pyehl.types import Settings
 
 __all__ = [
@@ -67,7 +72,8 @@ class LineContact:
     Raises
     ------
     InputError
-        For a number that is not positive or not finite.
+        For a load, speed, radius, modulus or viscosity that is not positive and finite, or a
+        negative pressure-viscosity coefficient.
 
     Examples
     --------
@@ -115,16 +121,16 @@ class LineContact:
         """Return the line with the given M and L, for a lubricant and a radius [m].
 
         E' is the reference modulus, as for a point contact. L = 0 does not fix the speed: then
-        alpha is 0 and the speed that of L = 10. InputError if M is not positive or L is negative.
+        alpha is 0 and the speed that of L = 10, at the given alpha, or at 2.2e-8/Pa if this is 0.
+        InputError if M is not positive, L is negative, or alpha is not positive at L > 0.
         """
         m = positive("moes_m_line", moes_m, "-")
         if not 0.0 <= moes_l < math.inf:
             raise InputError(f"moes_l_line must not be negative [-], not {moes_l!r}")
-        modulus = REFERENCE_MODULUS
-        two_u = ((moes_l or REFERENCE_L) / (pressure_viscosity * modulus)) ** 4
+        modulus, two_u = REFERENCE_MODULUS, twice_speed_number(moes_l, pressure_viscosity)
         return cls(
             load_per_length=m * math.sqrt(two_u) * modulus * radius,
-            mean_velocity=0.5 * two_u * modulus * radius / viscosity,
+            mean_velocity=0.5 * two_u * modulus * radius / positive("viscosity", viscosity, "Pa s"),
             radius=radius,
             reduced_modulus=modulus,
             viscosity=viscosity,
@@ -293,7 +299,7 @@ AnyContact = OperatingPoint | LineContact
 
 
 def contact_of(settings: Settings) -> AnyContact:
-    """Return the point or line contact of a resolved case."""
+    """Return the point or line contact of a resolved case; InputError for a roller."""
     if settings["contact"].get("shape") == "line":
         return LineContact.from_settings(settings)
     return OperatingPoint.from_settings(settings)

@@ -162,7 +162,7 @@ class Lubricant:
         T' is relative to the temperature of the inlet. NaN below -p0 (Roelands).
 
         Barus 1893: alpha p - beta T'; Roelands 1966: A ((1 + p/p0)^z (1 + T'/(T0 - 138 K))^-S0 - 1)
-        with A = alpha p0/z, S0 = beta (T0 - 138 K)/A.
+        with A = alpha p0/z, S0 = beta (T0 - 138 K)/A. The other laws are those of the solver.
         """
         p, warmer = np.asarray(pressure, dtype=float), np.asarray(rise, dtype=float)
         if self.viscosity_law not in SIMPLE_VISCOSITY:
@@ -184,7 +184,8 @@ class Lubricant:
     def density_ratio(self, pressure: ArrayLike, rise: ArrayLike = 0.0) -> Array:
         """rho/rho0 [-] at a pressure [Pa] and a temperature increase [K], any shapes.
 
-        Dowson & Higginson 1966 under pressure, linear in temperature.
+        Dowson & Higginson 1966 under pressure, or incompressible, and linear in temperature. The
+        other laws are those of the solver.
         """
         p, warmer = np.asarray(pressure, dtype=float), np.asarray(rise, dtype=float)
         if self.density_law not in SIMPLE_DENSITY:

@@ -23,16 +23,28 @@ from pyehl.types import Settings
 # alone has no length scale; these two provide one when an SI quantity is requested.
 REFERENCE_RADIUS = 0.018
 REFERENCE_MODULUS = 2.26e11
-# L that fixes the speed of a case with L = 0
-REFERENCE_L = 10.0
+# L that fixes the speed of a case with L = 0, and alpha [1/Pa] where the case has none
+REFERENCE_L, REFERENCE_COEFFICIENT = 10.0, 2.2e-8
 NO_LINE = (
-    "contact.shape = 'line': this is for point contacts\nexpected: a point contact; run, solve, "
-    "film, predict, stribeck, stress, sweep, plot and report take lines"
+    "contact.shape = 'line': this is for point contacts\nexpected: a point contact; check, run, "
+    "solve, film, predict, stribeck, stress, sweep, plot, report and export take lines"
 )
 NO_ROLLER = (
     "contact.shape = 'roller': this is for points and lines\nexpected: a point contact or a line; "
     "check, run, solve, sweep, plot, report and export take rollers"
 )
+
+
+def twice_speed_number(moes_l: float, pressure_viscosity: float) -> float:
+    """2U [-] of a contact with the material number L and the reference modulus, from alpha [1/Pa].
+
+    At L = 0 that of `REFERENCE_L`, there also without alpha. InputError if alpha is not positive at
+    L > 0.
+    """
+    if moes_l == 0.0:
+        moes_l, pressure_viscosity = REFERENCE_L, pressure_viscosity or REFERENCE_COEFFICIENT
+    alpha = positive("pressure_viscosity", pressure_viscosity, "1/Pa")
+    return (moes_l / (alpha * REFERENCE_MODULUS)) ** 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +82,8 @@ class OperatingPoint:
     Raises
     ------
     InputError
-        For a number that is not positive or not finite.
+        For a load, speed, radius, ratio, modulus or viscosity that is not positive and finite, a
+        negative pressure-viscosity coefficient, or a slide-to-roll ratio outside -2 ... 2.
 
     Examples
     --------
@@ -129,23 +142,23 @@ class OperatingPoint:
 
         M and L do not fix the scales: the radius, eta0 and alpha are given, E' is the reference
         modulus. The Hertz pressure p_h = alpha_bar/alpha follows from M, L and alpha alone. L = 0
-        does not fix the speed: then alpha is 0 and the speed that of L = 10.
+        does not fix the speed: then alpha is 0 and the speed that of L = 10, at the given alpha, or
+        at 2.2e-8/Pa if this is 0.
 
         Raises
         ------
         InputError
-            For M that is not positive or L that is negative.
+            For M that is not positive, L that is negative, or alpha that is not positive at L > 0.
         """
         m = positive("moes_m", moes_m, "-")
         if not 0.0 <= moes_l < math.inf:
             raise InputError(f"moes_l must not be negative [-], not {moes_l!r}")
-        modulus = REFERENCE_MODULUS
-        two_u = ((moes_l or REFERENCE_L) / (pressure_viscosity * modulus)) ** 4
+        modulus, two_u = REFERENCE_MODULUS, twice_speed_number(moes_l, pressure_viscosity)
         if moes_l == 0.0:
             pressure_viscosity = 0.0
         return cls(
             load=m * two_u**0.75 * modulus * radius**2,
-            mean_velocity=0.5 * two_u * modulus * radius / viscosity,
+            mean_velocity=0.5 * two_u * modulus * radius / positive("viscosity", viscosity, "Pa s"),
             radius=radius,
             reduced_modulus=modulus,
             viscosity=viscosity,
@@ -157,9 +170,10 @@ class OperatingPoint:
 
     @classmethod
     def from_settings(cls, settings: Settings) -> Self:
-        """From the groups ``contact`` and ``lubricant`` of a resolved case (either kind).
+        """From the groups ``contact`` and ``lubricant`` of a resolved case, in SI units or Moes.
 
-        With ``lubricant.thermal_reduction`` the viscosity is that of the warmer inlet.
+        With ``lubricant.thermal_reduction`` the viscosity is that of the warmer inlet. InputError
+        for a line or a roller.
         """
         c = typed(Contact, settings["contact"])
         oil = typed(LubricantGroup, settings["lubricant"])

@@ -102,8 +102,9 @@ def inlet_transfer(
     On the centre line the inlet ends at X = -0.8 and the edge is at X = -1; on a line at y
     [semi-axis], -1 < y < 1, their distance along the normal of the edge is the same. `zone` is the
     smooth contact on the centre line, `moes` M and L of the circular contact with the same inlet,
-    `velocity_ratio` U; wavenumbers [1/a] have one shape, qx >= 0 (at qx = y = 0 G is real). The
-    lines are the first dimensions of the result.
+    `velocity_ratio` U; wavenumbers [1/a] have one shape, qx >= 0 (at qx = y = 0 G is real);
+    `spacing` as in :func:`pyehl.theory.transport.transport`, not used for a line. The lines are the
+    first dimensions of the result.
     """
     if np.isinf(zone.ellipticity):
         # there is no side flow: the equation is solved without the fit
@@ -134,7 +135,7 @@ def inlet_base(
 ) -> Complex:
     """1 - w + w B: the factor of G on the centre line from the transport equation [-].
 
-    Parameters as in `inlet_transfer`; `spacing` as in :func:`pyehl.theory.transport.transport`.
+    Parameters as in `inlet_transfer`.
     """
     kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
     weight = 1.0 / (1.0 + (_nabla_2(np.hypot(kx, ky), moes) / SHORT) ** 3)
@@ -155,7 +156,7 @@ def inlet_fit(
 ) -> Complex:
     """F = G/(1 - w + w B): the fitted factor of G [-].
 
-    Parameters as in `inlet_transfer`.
+    Parameters as in `inlet_transfer`; `ellipticity` is the semi-axis across the motion over a.
     """
     cosine, sine, sharpness = _normal(y, ellipticity)
     # M and L for the gap next to the edge and the velocity along the normal

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Films of starved inlets over those of flooded ones, by closed formulas."""
 
-from pyehl.theory.film import FilmEstimate
+from pyehl.theory.film import FilmEstimate, outside
 
 EXPONENTS = (2.0, 5.0)
 """Minimum and maximum exponent gamma of `layer_reduction` (Chevalier et al. 1998)."""
@@ -58,9 +58,7 @@ def estimate(
             h_min=h_min * position_reduction(position, h_min / scale, MINIMUM),
             applies=True,
             bounds=HAMROCK_DOWSON_RANGE,
-            outside=()
-            if ellipticity == HAMROCK_DOWSON_RANGE["ellipticity"][0]
-            else (f"ellipticity = {ellipticity:.4g} outside 6 ... 6",),
+            outside=outside({"ellipticity": ellipticity}, HAMROCK_DOWSON_RANGE),
             note="of the flooded films above",
         )
     if layer > 0.0:

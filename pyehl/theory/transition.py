@@ -46,7 +46,7 @@ class Curve:
 
     @property
     def broken(self) -> tuple[int, ...]:
-        """Indices of the rows without a full film."""
+        """Indices of the rows with a mixed film or film breakdown."""
         return tuple(np.flatnonzero(self.table["status"].isin((BREAKDOWN, MIXED))).tolist())
 
     @property

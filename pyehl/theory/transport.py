@@ -26,8 +26,8 @@ inlet, where eps falls by orders of magnitude, the coefficients change slowly on
 
 In a shear-thinning lubricant the flow is phi_x times as large along the motion and phi_y times
 across (:mod:`pyehl.theory.shear`). Then eps |q|^2 becomes eps_t k^2 + eps_y k_Y^2 with eps_t =
--dq_x/d(P'), the terms in eps' and eps'' have eps_t, eps P' becomes eps_x P', and in delta ln eps_x
-= g the factor of Pi is c - (d ln eta/dP) (1 - d ln phi_x/d ln B) and that of -T/H is
+-dq_x/d(P'), the terms with eps', Pi' and Pi'' have eps_t, eps P' becomes eps_x P', and in g = delta
+ln eps_x the factor of Pi is c - (d ln eta/dP) (1 - d ln phi_x/d ln B) and that of -T/H is
 3 - d ln phi_x/d ln B + d ln phi_x/d ln S.
 """
 

@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 from reference import TABLE_1
 
 import pyehl
+from pyehl.theory.ellipse import ellipse
+from pyehl.theory.line_contact import LineContact
 from pyehl.theory.lubricant import Lubricant, default_roelands_z
 from pyehl.theory.operating import OperatingPoint
 
@@ -45,6 +47,23 @@ def test_from_moes_is_the_inverse(m, ell, r):
     assert point.moes_m == pytest.approx(m)
     assert point.moes_l == pytest.approx(ell)
     assert not point.si
+
+
+@pytest.mark.parametrize("contact", [OperatingPoint, LineContact])
+def test_no_pressure_viscosity_only_at_l_0(contact):
+    point = contact.from_moes(100.0, 0.0, pressure_viscosity=0.0)
+    assert point == contact.from_moes(100.0, 0.0)
+    assert point.moes_m == pytest.approx(100.0)
+    with pytest.raises(pyehl.InputError, match="pressure_viscosity"):
+        contact.from_moes(100.0, 10.0, pressure_viscosity=0.0)
+    with pytest.raises(pyehl.InputError, match="viscosity"):
+        contact.from_moes(100.0, 10.0, viscosity=0.0)
+
+
+@pytest.mark.parametrize("ratio", [1e-7, 1e7])
+def test_extreme_radius_ratios_are_refused(ratio):
+    with pytest.raises(pyehl.InputError, match="radius_ratio must be 1e-6"):
+        ellipse(ratio)
 
 
 def test_from_settings_takes_either_kind():
