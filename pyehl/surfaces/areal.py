@@ -103,9 +103,9 @@ def texture_aspect_ratio(heights: Array, pixel: tuple[float, float]) -> float:
     """Str of ISO 25178-2: shortest over longest distance at which the autocorrelation is 0.2.
 
     The autocorrelation is that of the map about its mean, each lag averaged over the overlap, for
-    lags up to half of the map. A direction in which it never falls to 0.2 counts with the largest
-    lag, so that the Str of a perfect lay is an upper bound and not zero. Heights (nx, ny) [m], none
-    missing; pixel size along x and y [m].
+    lags up to half of the shorter side. A direction in which it never falls to 0.2 counts with the
+    largest lag, so that the Str of a perfect lay is an upper bound and not zero. Heights (nx, ny)
+    [m], none missing; pixel size along x and y [m].
     """
     nx, ny = heights.shape
     z = heights - heights.mean()

@@ -144,7 +144,8 @@ def check_pixels(
 def read_npy(path: Path) -> Array:
     """Read the heights (nx, ny) of a `.npy` file, as they are stored.
 
-    InputError if it is no matrix of real numbers, or its header is invalid.
+    InputError if it is no matrix of real numbers, or its header is invalid; NoMemoryError as
+    `check_pixels`.
     """
     raw = mapped(path)
     if raw.ndim != 2 or raw.size == 0:

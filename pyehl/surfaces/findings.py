@@ -82,7 +82,7 @@ MIN_DUST, MAX_DUST = 5, 0.02
 BLOCK = 32
 """Pixels per side of the blocks; dust is compared with the median of its block."""
 MAX_LISTED = 3
-"""Number of steps or specks that are reported one by one."""
+"""Number of stitching steps that are reported one by one."""
 
 
 def stitching(

@@ -89,7 +89,7 @@ def from_settings(settings: Settings, operating: Contact, film: float) -> Topogr
 
 
 def whole(settings: Settings, operating: Contact, film: float) -> Topography:
-    """Return the surface on its first track, unfiltered; else as :func:`from_settings`."""
+    """Return the surface unfiltered and not shifted to its track; else as :func:`from_settings`."""
     surface = settings["surface"]
     kind = str(surface["kind"])
     if kind == "fractal":

@@ -66,6 +66,7 @@ def rotated(
     across the motion. Quarter turns only permute pixels; any other angle interpolates (cubic
     splines) and keeps the largest upright rectangle inside the rotated map, so that no heights from
     outside the map are needed. Its pixels [m] are then square, with the smaller of the two sizes.
+    InputError if fewer than 4 x 4 pixels remain.
     """
     quarters = round(angle / 90.0)
     if abs(angle - 90.0 * quarters) < 1e-9:
@@ -149,7 +150,7 @@ def align_lines(heights: Array, along: str) -> None:
 
     The median height of each line above the plane of the map becomes 0; NaN stays NaN. This also
     removes what the surface itself contributes to the line medians: waves across the lines that are
-    constant along them.
+    constant along them. InputError as :func:`level`.
     """
     axis = "xy".index(along)
     flat = heights.copy()
@@ -191,7 +192,7 @@ def mirrored(heights: Array) -> Array:
     decays as the fourth power of the wavenumber, at least as fast as that of a rough surface; that
     of a jump as the second.
 
-    The middle of the map is on row 0 of the tile, so that it passes the centre of the contact.
+    The middle of the map in y is at y = 0 of the tile, so that it passes the centre of the contact.
     """
     nx, ny = heights.shape
     half = ny // 2
@@ -213,7 +214,8 @@ def unmirrored(i: int, j: int, shape: tuple[int, int]) -> tuple[int, int]:
 def windowed(heights: Array) -> Array:
     """Taper a map to its mean along its edges by a raised cosine over a tenth of each side.
 
-    The inner part does not change; tapering reduces the rms height.
+    The inner part does not change; tapering reduces the rms height. The middle of the map in y is
+    at y = 0 of the tile (nx, ny), as in `mirrored`.
     """
     half = heights.shape[1] // 2
     mean = float(heights.mean())
@@ -240,7 +242,8 @@ def _taper(n: int) -> Array:
 def jump(heights: Array) -> float:
     """Rms step across the seams of a tile over the rms step between neighbours inside.
 
-    About 1 for a periodic surface, far more for a map that is not periodic.
+    The larger of those along x and along y. About 1 for a periodic surface, far more for a map that
+    is not periodic.
     """
     ratios = []
     for axis in (0, 1):
@@ -267,8 +270,9 @@ and its minimum fraction of the map."""
 SHOWN_COLUMNS, SHOWN_ROWS = 48, 20
 """Maximum number of columns and lines of the sketch of missing points."""
 
-DIRECT_POINTS = 50_000
-TOLERANCE = 1e-10
+DIRECT_POINTS, TOLERANCE = 50_000, 1e-10
+"""Largest number of missing points that are solved for directly; relative tolerance of the
+iteration for more."""
 WINDOW = 5
 """Pixels per side of the median filter with which a point is compared."""
 MAD_TO_SIGMA = 1.482602218505602
@@ -357,7 +361,10 @@ def _where(missing: Mask, pixel: tuple[float, float], corner: tuple[float, float
 
 
 def _largest_part(count: Array, area: Array) -> tuple[int, int, int, int] | None:
-    """Largest rectangle of blocks with few missing points: first and last block along x and y."""
+    """Largest rectangle of blocks with few missing points: x_begin, x_end, y_begin, y_end.
+
+    As indices of blocks, the ends exclusive; None if it is too small a part of the map.
+    """
     sums, areas = (np.pad(values.cumsum(0).cumsum(1), ((1, 0), (1, 0))) for values in (count, area))
     best, result = 0.0, None
     for i in range(count.shape[0]):

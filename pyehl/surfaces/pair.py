@@ -40,7 +40,10 @@ def correlation(first: Topography, second: Topography, together: Topography | No
 def sum_of(
     groups: Sequence[Mapping[str, Any]], tiles: Sequence[Topography], hertz_radius: float
 ) -> Topography | None:
-    """Return the sum of the tiles of two groups of a case; None if their velocities differ."""
+    """Return the sum of the tiles of two groups of a case.
+
+    None if their velocities differ, or as :func:`merged`.
+    """
     one, two = groups
     if float(one["velocity_ratio"]) != float(two["velocity_ratio"]):
         return None

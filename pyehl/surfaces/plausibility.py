@@ -30,8 +30,9 @@ def unmarked(heights: Array, unit: float | None = None) -> list[str]:
     """Replace marks of missing points by NaN in heights as stored in the file, in place.
 
     `unit` is the unit of the heights [m], None if it is not known. Returns notes with the marks and
-    their number. A mark is a number that programs write for a missing point, the smallest or the
-    largest of all heights and far from the others.
+    their number. Infinite heights and those beyond HUGE or FAR are marks, and so is a number that
+    programs write for a missing point if it is the smallest or the largest of all heights and far
+    from the others.
     """
     notes = []
     infinite = np.isinf(heights)

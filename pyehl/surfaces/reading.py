@@ -5,8 +5,8 @@ Axes: the first index of a map runs along x, which is the direction of motion, t
 An instrument file has the axes of SurfaceTopography: x along the lines of the image (its width), y
 across them. `surface.rotate` rotates a map with another direction of lay or motion.
 
-Texts of known programs are read by their own rules. What :mod:`pyehl.surfaces.plausibility` finds
-of heights that can hardly be those of a surface is reported.
+Texts of known programs are read by their own rules. Implausible heights
+(:mod:`pyehl.surfaces.plausibility`) are reported, a map of implausible slope is refused.
 """
 
 import re
@@ -121,7 +121,7 @@ class Scan:
     is_array: bool = True
     is_periodic: bool = False  # whether the file states that the map is periodic
     channel: str = ""  # name of the channel or data set; empty for arrays
-    # Source of the size: 'the file' or 'surface.length_x, surface.length_y'
+    # Source of the size in words, as 'the file' or 'surface.length_x, surface.length_y'
     size_from: str = "surface.length_x, surface.length_y"
     note: str = ""  # remark for the user; usually empty
 
@@ -136,18 +136,18 @@ def read_scan(
 ) -> Scan:
     """Read a height map; a given size [m] replaces that of the file, which may have none.
 
-    ``.npy`` (never pickled) or text (``.txt``, ``.csv``, ``.dat``, ``.asc``: one x per line, y
-    along the line, separated by blanks, commas, semicolons or tabs; a table under a header, or with
-    axes; or a list of the x, y and z of all points of a grid, see :mod:`pyehl.surfaces.text_map`),
-    NaN where heights are missing; any other file must be one that SurfaceTopography reads. Heights
-    are in `height_unit` ('m', 'mm', 'um' or 'nm') if the file does not name their unit, positions
-    of a list or of axes in `lateral_unit` (or 'same': that of the heights). `channel` is the name
-    of a channel of an instrument file, or its number, counted from 1; empty: the first height
-    channel according to the file.
+    ``.npy`` (never pickled) or text, whatever its suffix (one x per line, y along the line,
+    separated by blanks, commas, semicolons or tabs; a table under a header, or with axes; or a list
+    of the x, y and z of all points of a grid, see :mod:`pyehl.surfaces.text_map`), NaN where
+    heights are missing; any other file must be one that SurfaceTopography reads. Heights are in
+    `height_unit` ('m', 'mm', 'um' or 'nm') if the file does not name their unit, positions of a
+    list or of axes in `lateral_unit` (or 'same': that of the heights). `channel` is the name of a
+    channel of an instrument file or of a table of a text, or its number, counted from 1; empty: the
+    first height channel according to the file.
 
     FileError if the file cannot be opened; NoMemoryError if it is larger than the memory;
-    InputError if it is no matrix of numbers, has no size or no such channel, or its size is
-    implausible.
+    InputError if it is no matrix of numbers, has no size or no such channel, names a unit that is
+    given, too, or its size or its slopes are implausible.
     """
     path = Path(path)
     if not path.is_file():

@@ -14,7 +14,7 @@ from pyehl.surfaces.text_table import BLANKS, Cells, Table, tables_of
 from pyehl.types import Array
 
 MAX_COLUMNS = 8
-"""Of a list of points."""
+"""Maximum number of columns of a list of points."""
 
 
 def is_list(rows: Array) -> bool:

@@ -353,7 +353,7 @@ def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:
 
 
 def interpolated(values: Array, times: int) -> Array:
-    """Interpolate a periodic sequence trigonometrically on `times` as many points."""
+    """Interpolate a periodic sequence (n,) trigonometrically on `times` > 1 as many points."""
     n = values.size
     half = np.fft.rfft(values)
     if n % 2 == 0:

@@ -42,7 +42,7 @@ class Options:
 
 
 NEUTRAL = Options()
-"""With these options only the mean of an array is removed."""
+"""With these options the mean of an array is removed and its missing points are filled, no more."""
 
 
 def defaults(options: Options, scan: Scan) -> tuple[Options, dict[str, str]]:
