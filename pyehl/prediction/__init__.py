@@ -31,15 +31,16 @@ Readings of the paper
 Limits of the model
 -------------------
 * p_s + delta p <= 0: the lubricant cavitates, as P >= 0 requires in the full problem: pressure zero
-  and viscosity eta0, and less pressure around it by the response, so that the load is kept. The
-  points are counted (`cavitated_share`) and the share of friction that depends on this is bounded
-  (`cavitated_friction`); near the edge of the contact p_s vanishes, so a few points are normal.
-* A loss of film rr_d of more than 1.6 h_s by the response, of more than h_s in the model of the
-  paper: there is no full film, which the model needs: status ``"film breakdown"``, no ratio.
+  and viscosity eta0. With the solved contact or the response the other pressures in that ring of
+  the contact are reduced, so that its load is kept. The points are counted (`cavitated_share`) and
+  the share of friction that depends on this is bounded (`cavitated_friction`); near the edge of the
+  contact p_s vanishes, so a few points are normal.
+* A loss of film rr_d of more than 1.6 h_s by the response, of more than h_s by the real ratio of
+  the paper: there is no full film, which the model needs: status ``"film breakdown"``, no ratio.
 * mu_r/mu_s above 10: status ``"beyond linear response"``, no ratio; the message names a cut-off of
   the spectrum that brings it into the range in which the model was compared.
-* A viscosity that overflows, or roughness that carries the whole load: status ``"overflow"``,
-  ``"load lost"``, no ratio.
+* A viscosity that overflows, or roughness that carries more than the load, of the contact or of a
+  ring of it: status ``"overflow"``, ``"load lost"``, no ratio.
 
 A passage is one track of a surface. Ridges along the motion stay in one position across the contact
 during a passage: a track under a ridge has more friction, one under a valley less, and the mean

@@ -66,7 +66,7 @@ def below_zero(
 
     Every pixel of a tile within b of the track passes through the contact along its row, and
     through the minimum of the smooth film on this row; there it may meet the highest point of the
-    other tile on the row. The deformed roughness (nx, ny) [m], row 0 through the centre, is assumed
+    other tile on the row. The deformed roughness (nx, ny) [m], y = 0 through the centre, is assumed
     to be everywhere that at the centre. Semi-axes a and b of the contact in m, b infinite for a
     line. The share is that of one tile; NaN for two, where it needs the positions of a prediction.
     """
@@ -122,7 +122,10 @@ def _beyond(deformed: Array, column: Indices, smooth: Array, ended: Array) -> tu
 
 
 def of_model(model: Model, deformed: Sequence[Array], sustained: Sustained) -> BelowZero:
-    """Find where the film of a model breaks down; for two surfaces over all relative positions."""
+    """Find where the film of a model breaks down.
+
+    Two surfaces are in the positions of their common period, or without one in all relative ones.
+    """
     tiles, semi_axes = [one.topography for one in model.surfaces], model.operating.semi_axes
     result = below_zero(tiles, deformed, semi_axes, sustained)
     if len(tiles) == 1 or result.deepest > 0.0:

@@ -130,7 +130,8 @@ def model_error(mu_ratio: float, *, thins: bool = False, ellipticity: float = 1.
 
     It covers the deviation from the full simulation of this package on 513 x 513 nodes in at least
     nine of ten cases of docs/evidence/prediction; `thins`: for a flow that obeys a shear law, on
-    257 x 257 nodes, of docs/evidence/thinning.
+    257 x 257 nodes, of docs/evidence/thinning. `ellipticity` is the semi-axis across the motion
+    over a [-]; a narrow contact has a larger error.
     """
     if not mu_ratio <= KNOWN_RATIO:
         return math.nan
@@ -172,7 +173,8 @@ def outside_range(
 
     `moes_m` and `moes_l` of an elliptical contact are those of the circle with the same dry inlet.
     `thinning`: viscosity at low shear over that of a Newtonian lubricant with the same film
-    thickness; `widest`: largest ellipticity, FILM_ELLIPTICITY for film and pressure.
+    thickness; `widest`: largest ellipticity, FILM_ELLIPTICITY for film and pressure. Empty
+    unless `psd.reduction` is 'response'.
     """
     if options.reduction != "response":
         return []

@@ -58,8 +58,9 @@ class Edge:
 
     `coefficients` (n, m) of the polynomials [p_h] for the waves of the tile with wavenumbers
     qx >= 0, qy (m,) [1/a]: of :func:`pyehl.theory.disc.monomials` (n = 28) in a circle, of
-    :mod:`pyehl.theory.ellipse_edge` in an ellipse. `displacement` (k, m): that of the edge,
-    outwards, at EDGE_ANGLES [semi-axes].
+    :mod:`pyehl.theory.ellipse_edge` in an ellipse, of :mod:`pyehl.theory.strip_edge` in a line
+    contact. `displacement` (k, m): that of the edge, outwards [semi-axes], at EDGE_ANGLES, for a
+    line at the places of :meth:`pyehl.theory.strip_edge.StripEdge.displacement`.
     """
 
     def __init__(
@@ -124,7 +125,7 @@ class Edge:
         return Edge(self.qx[keep], self.qy[keep], *parts, self.shape)
 
     def at(self, shift: float, track: float) -> tuple[Array, Array]:
-        """Coefficients (n,) and outward displacement of the edge at EDGE_ANGLES (k,).
+        """Coefficients (n,) and outward displacement of the edge (k,), as in the attributes.
 
         For a tile moved along and across the motion [a].
         """

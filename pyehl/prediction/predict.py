@@ -112,8 +112,7 @@ BRIEF = 0.36
 """Time of a prediction without tracks and bands, as for other spectra, over that with them: 0.3 to
 0.4 with cases/finish.nml and a gear flank."""
 SMALL = 0.02
-"""Length of a map over that of the contact below which a warning states that the map repeats
-often."""
+"""Length and width of a map over those of the contact below which a larger map is recommended."""
 ENOUGH = 3.0
 """Length of a part that is suggested in place of a larger map, over that of the contact."""
 
@@ -132,7 +131,7 @@ def seconds_of(tile: Topography, operating: AnyContact) -> float:
 def report_cost(
     tile: Topography, operating: AnyContact, group: str = "surface", others: int = 0
 ) -> None:
-    """Describe the time for a large tile, and suggest a sufficient part of its map.
+    """Log the time for a large tile, and suggest a sufficient part of its map, or a larger map.
 
     `others`: number of brief predictions with other spectra.
     """
@@ -149,7 +148,12 @@ def report_cost(
         f"{', mirror images included,' if images > 1 else ''} take about {_time(seconds)}"
     )
     if max(contacts) > 2.0 * ENOUGH:
-        text += f"; the map is {contacts[0]:.0f} x {contacts[1]:.0f} contacts long and wide"
+        wide = (
+            "contacts long"
+            if operating.ellipse.is_line
+            else f"x {contacts[1]:.0f} contacts long and wide"
+        )
+        text += f"; the map is {contacts[0]:.0f} {wide}"
         text += _part(tile, operating, own, seconds, group)
     elif max(contacts) < SMALL:
         text += (
@@ -237,14 +241,16 @@ def predict(
 ) -> Prediction:
     """Predict the relative friction of a resolved case, also given as namelist `text`.
 
-    `tracks` across the surface, 1 to `MAX_TRACKS`, are for mean and spread; `smooth` is a result
-    folder with the smooth contact, otherwise it is solved; `surface` and `second_surface` are
-    surfaces before their spectrum is cut and before they are moved to their track, by default those
-    of the case. `brief`: mu_r/mu_s and its errors, bit for bit the same, but no tracks, only the
-    band of the shortest waves, and no search for a cut-off with which there is a ratio.
+    `tracks` across the surface, 1 to `MAX_TRACKS`, are for mean and spread, not used for a line;
+    `smooth` is a result folder with the smooth contact, otherwise it is solved; `surface` and
+    `second_surface` are surfaces before their spectrum is cut and before they are moved to their
+    track, by default those of the case. `brief`: mu_r/mu_s and its errors, bit for bit the same,
+    but no tracks, only the band of the shortest waves, no search for a cut-off with which there is
+    a ratio, and no other spectra.
 
     InputError if the surface is smooth or a single feature, a map is not usable, the conditions
-    are outside the model, or there are too many tracks; OSError if a map cannot be opened.
+    are outside the model, or there are too many tracks; OSError if a map cannot be opened; EhlError
+    if the smooth contact does not converge.
     """
     start = time.perf_counter()
     refuse_duty(settings)

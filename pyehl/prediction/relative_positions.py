@@ -26,8 +26,8 @@ Friction = Callable[[Position], float]
 """mu_r/mu_s at a position."""
 
 POSITION_TOLERANCE = 2e-3
-"""Relative error of half of the positions below which no more are added: a fifth of the smallest
-error of the model (:data:`pyehl.prediction.model.CONSTANT`)."""
+"""Relative error of half of the positions below which no more are added: a fifth of the constant
+part of the error of the model (:data:`pyehl.prediction.model.CONSTANT`)."""
 EXTREMES = 32
 """Number of positions for minimum film and maximum pressure increase: with twice as many these
 differ by at most 1 % (docs/evidence/thinning)."""
@@ -53,7 +53,8 @@ class Passage:
 
     shifts: tuple[Array, ...]  # displacement of each tile (n,) [m]
     ratios: Array  # (n,)
-    # Relative error of the mean over half of the positions; NaN: not known
+    # Relative error with half of the positions, of one tile that of the interpolation, of two that
+    # of the mean; NaN: not known
     undecided: float
     periodic: bool = True  # whether the positions are successive and periodic
 

@@ -397,7 +397,7 @@ class Transfer:
         return [k_free * t + axis for t in self.free], lines
 
     def beside(self, qx: Array, velocity_ratio: float) -> Complex | None:
-        """Change of T at X = 0 on LINES (lines, ...) of an ellipse; None for a circle."""
+        """Change of T at X = 0 on LINES (lines, ...) of an ellipse; None for a circle or a line."""
         if not self.line_pressure:
             return None
         slip = velocity_ratio - 1.0

@@ -151,7 +151,7 @@ class Prediction:
     heat
         Effect of the frictional heat on friction; None: no effect.
     beside
-        Predictions with other spectra, if Ra or a finish is given.
+        Predictions with other spectra, if Ra, Rq or a finish is given.
 
     Examples
     --------

@@ -163,7 +163,7 @@ class RoughContact(ShearedContact):
         return total
 
     def friction(self, position: Position) -> float:
-        """Friction over that of the smooth contact; NaN where the film is not positive."""
+        """Friction over that of the smooth contact at a position; NaN as in `sheared`."""
         change = self.change(position)
         smooth = self.smooth_film()
         if len(self.tiles) > 1:

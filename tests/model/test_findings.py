@@ -2,6 +2,7 @@
 """Raw scans: form, offset lines, stitching steps, dust, missing parts, many contacts."""
 
 import logging
+import re
 
 import numpy as np
 import pytest
@@ -10,10 +11,11 @@ import pyehl
 from pyehl import cli
 from pyehl.errors import InputError
 from pyehl.prediction.breakdown import advise
-from pyehl.prediction.predict import seconds_of
+from pyehl.prediction.predict import report_cost, seconds_of
 from pyehl.surfaces import Options, Scan, Topography, fractal, prepare
 from pyehl.surfaces.findings import find
 from pyehl.surfaces.map_steps import align_lines, level
+from pyehl.theory.line_contact import LineContact
 from pyehl.theory.operating import OperatingPoint
 
 PIXEL = 5e-6
@@ -255,3 +257,11 @@ def test_a_scan_of_many_contacts_reports_its_cost_and_proposes_a_part(caplog, mo
     assert "the map is 7 x 7 contacts long and wide" in caplog.text
     assert "A part of 3 contacts" in caplog.text
     assert "surface.crop_x_min=0.0017" in caplog.text
+
+
+def test_the_cost_of_a_map_under_a_line_has_no_number_of_contacts_across(caplog, monkeypatch):
+    monkeypatch.setattr("pyehl.prediction.predict.REPORTED", 0.0)
+    caplog.set_level(logging.INFO, "pyehl")
+    tile = Topography(np.zeros((64, 64)), (6e-3, 6e-3), "wide")
+    report_cost(tile, LineContact.from_moes(20.0, 10.0))
+    assert re.search(r"the map is \d+ contacts long$", caplog.text, re.MULTILINE)
