@@ -103,6 +103,8 @@ def response(
     ------
     InputError
         If the case is not valid, or the folder has other files.
+    EhlError
+        If a run fails; the folder keeps the finished ones.
     FileError
         If the folder cannot be written.
 

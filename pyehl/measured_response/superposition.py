@@ -30,11 +30,13 @@ SLOPE = 1.2e-3
 """Amplitude of a wave times its wavenumber [a/R]: small enough for a linear response."""
 REACH = 1.0
 """Largest |X| at which the response is measured [a]."""
+# solver.accuracy of a run
 ACCURACY = 0.02
 # Pixels per shortest wave; the solver interpolates a map by its Fourier series
 PIXELS = 4
 # Distance [a] that the slowest wave moves until the start of the run has no effect
 FILLING = 2.3
+# Front of the tile at the start of the run [a]
 FRONT = -2.5
 
 

@@ -28,7 +28,7 @@ from pyehl.plots.style import (
 )
 from pyehl.schema import summary_of
 from pyehl.surfaces import Topography, wavenumbers
-from pyehl.theory.ellipse import ellipse
+from pyehl.theory.ellipse import LINE, ellipse
 from pyehl.theory.line_contact import scaling_contact
 from pyehl.theory.transport import stiffness
 from pyehl.types import Array
@@ -269,7 +269,7 @@ def _spectra(
     third.set_box_aspect(1.0)
     surface.heights(tile, ax=first)
     surface.spectrum_map(tile, ax=second)
-    flattened = _flattened(about, Topography(arrays[f"{prefix}delta_p"], tile.size))
+    flattened = flattening(about, Topography(arrays[f"{prefix}delta_p"], tile.size))
     surface.spectrum_line(tile, deformed, flattened, ax=third)
     figure.axes[-1].set_box_aspect(1.0)
     return figure
@@ -305,10 +305,10 @@ def _tile(about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str) ->
     return Topography(arrays[f"{prefix}surface"], size, about[f"{prefix}surface"])
 
 
-def _flattened(about: Mapping[str, Any], tile: Topography) -> Array:
+def flattening(about: Mapping[str, Any], tile: Topography) -> Array:
     """Return the flattening [m] by a pressure [Pa] of a tile: p/(E'|q|/4)."""
-    kernel_ratio = ellipse(about.get("radius_ratio", 1.0)).kernel_ratio
-    stiff = stiffness(np.hypot(*wavenumbers(tile)) * about["hertz_radius_m"]) / kernel_ratio
+    shape = LINE if about.get("shape") == "line" else ellipse(about.get("radius_ratio", 1.0))
+    stiff = stiffness(np.hypot(*wavenumbers(tile)) * about["hertz_radius_m"]) / shape.kernel_ratio
     # the mean is not flattened
     stiff[0, 0] = np.inf
     unit = about["film_scale_m"] / about["hertz_pressure_Pa"]

@@ -105,7 +105,8 @@ def plot(
     Raises
     ------
     InputError
-        If it is not a result, or has nothing to draw, or another file has the name of a picture.
+        If it is not a result, or has nothing to draw, an argument is not allowed, or another file
+        has the name of a picture.
     FileError
         If a picture cannot be written.
 

@@ -18,7 +18,7 @@ from pyehl.plots.panels import headline
 from pyehl.plots.style import PAGE, film_unit, nearest, new_figure, styled
 from pyehl.results import settings_of
 from pyehl.schema import summary_of
-from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.line_contact import scaling_contact
 
 SUFFIXES = ("gif", "mp4")
 FRAME_SECONDS, DPI = 0.08, 150
@@ -32,7 +32,7 @@ def _pace(data: xr.Dataset, seconds: float, *, si: bool) -> str:
     between = float(np.median(np.diff(times))) if times.size > 1 else 0.0
     text = f"{between:.3g} a/u"
     if si:
-        unit = OperatingPoint.from_settings(settings_of(data)).time_scale
+        unit = scaling_contact(settings_of(data)).time_scale
         text += f" = {between * unit * 1e6:.3g} µs"
     return f"{seconds:.3g} s per frame, which is {text} in the contact"
 
@@ -49,7 +49,8 @@ def movie(
     `data` is from a run with ``output.frame_interval`` above 0; each frame is shown for `seconds`,
     which the title states with the time between frames in the contact. The panels are the film as
     fringes, pressure and film on the centre line, and the deformed roughness if there is one.
-    InputError if there are no frames, or no program ffmpeg for 'mp4', or another file has the name.
+    InputError if there are no frames, the contact is a line, `seconds` are out of range, there is
+    no program ffmpeg for 'mp4', or another file has the name.
     """
     if "frame_H" not in data or data.sizes["T"] == 0:
         raise InputError(

@@ -92,7 +92,7 @@ class Outline:
 
     @property
     def chords(self) -> tuple[float, float]:
-        """Half of its width on the x axis and on the y axis; a line has no end along y."""
+        """Half of its width on the x axis and on the y axis; of a roller infinite on the y axis."""
         if self.ends:
             return 1.0, math.inf
         c, s = math.cos(math.radians(self.angle)), math.sin(math.radians(self.angle))

@@ -264,7 +264,7 @@ def roughness(
     outline: Outline = CIRCLE,
     ax: Axes | None = None,
 ) -> Axes:
-    """Heights inside the Hertz ellipse as a map with a colour bar (Fig. 6, left).
+    """Heights inside the Hertz ellipse as a map (as Fig. 6 of Zhang et al. 2019, left).
 
     Parameters
     ----------

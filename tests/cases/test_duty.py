@@ -412,14 +412,19 @@ def test_a_step_without_a_film_proposes_a_finer_grid():
     assert "smoother" not in failed.attrs["message"]
 
 
-def test_a_movie_of_smooth_surfaces(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+@pytest.mark.parametrize("roller", [False, True])
+def test_a_movie_of_smooth_surfaces(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *, roller: bool
+):
     """Film and pressure: there is no roughness to show."""
     monkeypatch.setattr("pyehl.plots.movie.DPI", 30)
+    point = {"contact": {"load": 60.0, "mean_velocity": 1.0, "radius": 0.01}}
+    groups = ROLLER if roller else point | {"grid": {"points": 33}}
+    load = groups["contact"]["load"]
     case = pyehl.Case(
-        contact={"load": 60.0, "mean_velocity": 1.0, "radius": 0.01},
-        grid={"points": 33},
+        **groups,
         output={"frame_interval": 0.5},
-        duty={"time": [0.0, 1e-4, 3e-4], "load": [60.0, 60.0, 40.0]},
+        duty={"time": [0.0, 1e-4, 3e-4], "load": [load, load, 0.7 * load]},
     )
     pyehl.solve(case, output=tmp_path / "out")
     assert cli.main(["plot", str(tmp_path / "out"), "--movie"]) == 0

@@ -13,6 +13,7 @@ from matplotlib.image import imread
 from pyehl import Case, cli, namelist
 from pyehl.plots import (
     contact,
+    figures,
     folder,
     panels,
     style,
@@ -179,6 +180,17 @@ def test_heights_and_amplitude_ratio_of_each_wave(settings):
     assert np.all(stays + flattened < 1.03)
     ax = surface.heights(result.surface)
     assert ax.get_images()[0].get_array().max() == pytest.approx(result.surface.heights.max() * 1e9)
+
+
+def test_flattened_part_of_a_line_contact():
+    """Pressure over the stiffness of the half-space: what the deformed part lacks."""
+    tile = {"kind": "fractal", "rms_height": 2e-8, "hurst": 0.8, "pixels": 128}
+    case = Case(contact={"shape": "line"}, surface=tile | {"length_x": 3e-4, "length_y": 3e-4})
+    result = predict(case.resolve())
+    response, rough = result.friction.response, result.surface.heights
+    part = figures.flattening(result.summary, Topography(response.pressure, result.surface.size))
+    lost = rough - rough.mean() - response.deformed
+    assert np.std(part) == pytest.approx(np.std(lost), rel=0.01)
 
 
 def test_roughness_shares_one_scale(settings):
