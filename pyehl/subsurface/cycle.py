@@ -183,7 +183,11 @@ class History:
 
 def incomplete(loads: Loads) -> str:
     """Return why the loads do not cover a complete passage; '' if they do."""
-    if not loads.times.size or loads.period > 0.0:
+    if not loads.times.size:
+        return ""
+    if loads.velocity == 0.0:
+        return "the surface of the body is at rest: its points do not pass through the contact"
+    if loads.period > 0.0:
         return ""
     distance = abs(loads.velocity) * float(loads.times[-1] - loads.times[0])
     if distance >= MIN_DISTANCE:
@@ -330,7 +334,7 @@ def a_iso(kappa: float, contamination: float, bearing: str) -> float:
     Raises
     ------
     InputError
-        For another bearing, or a contamination term that is not positive.
+        For another bearing, or a contamination term that is not positive or above 5.
     """
     if bearing not in BEARINGS:
         raise InputError(f"bearing = {bearing!r}: expected one of {', '.join(BEARINGS)}")

@@ -39,7 +39,10 @@ BLOCKS = 24
 
 @dataclass(frozen=True, slots=True)
 class _Waves:
-    """Waves of a periodic cell: wavenumber k [1/m], and cos and sin of its angle to x."""
+    """Waves of a periodic cell: wavenumber k, and cos and sin of its angle to x.
+
+    k is over the unit of the mesh sizes.
+    """
 
     cell: tuple[int, int]
     k: Array
@@ -241,14 +244,15 @@ class Layer:
     images: ImagesAt | None
 
     def under(self, pressure: Array, traction: Array | None = None) -> Array:
-        """Stress (6, nx, ny) [Pa], by `COMPONENTS`.
+        """Stress (6, nx, ny) in the unit of the loads, by `COMPONENTS`.
 
         Parameters
         ----------
         pressure
-            (nx, ny) [Pa].
+            (nx, ny) [Pa], or in any other unit of stress.
         traction
-            Along x on the surface of this solid, (nx, ny) [Pa]; None: without friction.
+            Along x on the surface of this solid, (nx, ny), in the same unit; None: without
+            friction.
         """
         stress = self.fine.under(pressure, traction)
         if self.images:
@@ -256,7 +260,7 @@ class Layer:
         return stress
 
     def error(self, pressure: Array, traction: Array | None = None) -> float:
-        """Bound on the error of `under` by the periodic cell [Pa]; 0 for a periodic load."""
+        """Bound on the error of `under` by the periodic cell, in its unit; 0 without images."""
         return self.images.left(pressure, traction) if self.images else 0.0
 
 

@@ -54,12 +54,13 @@ class Loads:
     y: Array  # (ny,) [a]
     smooth: Load
     times: Array  # instants (n,) of the rough contact [a/u]; empty for a smooth one
+    # (nx, ny) of the rough contact by the number of an instant: pressure [p_h] and film [m]
     pressures: Callable[[int], Array]
     films: Callable[[int], Array]
     traction: Traction
-    body: int
+    body: int  # 1 or 2
     velocity: float  # velocity of its surface over the mean velocity
-    poisson: float
+    poisson: float  # its Poisson ratio [-]
     semi_axis_y: float  # [a]; infinite for a line
     operating: AnyContact
     friction_note: str
@@ -134,7 +135,7 @@ def check_friction(friction: str | float) -> None:
 def body_of(settings: Settings, body: int | None) -> tuple[int, float, float]:
     """Return the number of a body, the velocity ratio of its surface, and its Poisson ratio.
 
-    `body` None: the body with the surface of the case.
+    `body` None: the body with the surface of the case. InputError for another number than 1 or 2.
     """
     contact = settings["contact"]
     number = int(contact["rough_surface"]) if body is None else body
@@ -183,7 +184,11 @@ def friction_of(
 
 
 class Traction:
-    """Traction on the body from pressure [p_h] and film [m]."""
+    """Traction on the body from pressure [p_h] and film [m].
+
+    `smooth`: pressure and film of the smooth contact (nx, ny); `area` of a node and `width` of the
+    grid across the motion [a^2, a]; `result`: that of `friction_of`; no lubricant in Moes numbers.
+    """
 
     def __init__(
         self,
@@ -319,11 +324,13 @@ MARGIN, GRID_POINTS = 0.3, 128.0
 def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float) -> Loads:
     """Return the loads of a prediction; solves its smooth contact again, in about a second.
 
+    `psd.smooth`, `psd.film_thickness` and the folder of a smooth contact are ignored.
+
     Raises
     ------
     InputError
-        If the status is not 'predicted', for the model of the paper, or for an invalid body or
-        friction.
+        If the status is not 'predicted', for another `psd.reduction` than 'response', for surfaces
+        at rest, or for an invalid body or friction.
     """
     if data.attrs.get("status") != "predicted":
         raise InputError(f"stress needs a prediction; the status is {data.attrs.get('status')!r}")

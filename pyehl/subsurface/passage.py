@@ -162,7 +162,10 @@ def profile(
     at: Array | None = None,
     progress: bool = False,
 ) -> Profile:
-    """Compute the stress at depths `at` [a], None: from the pressure; `above` in p_h."""
+    """Compute the stress at depths `at` [a], None: from the pressure; `above` in p_h.
+
+    The depths of the largest shear are added; depth 0 is omitted if a traction ends in a step.
+    """
     is_rough = loads.times.size > 0
     first = next(loads.rough(), loads.smooth)
     half_space = HalfSpace(

@@ -25,8 +25,6 @@ from pyehl.subsurface.loads import Loads, check_friction, loads_of
 from pyehl.subsurface.passage import Peak, Profile, largest, near_surface, profile
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from pyehl.prediction.result import Prediction
 
 
@@ -137,7 +135,7 @@ def stress(
     Parameters
     ----------
     results
-        What `solve`, `predict` or `load` returns, or a result folder of a solution.
+        What `solve`, `predict` or `load` returns, or a result folder of a solution or prediction.
     body
         1 or 2; default: the one with the surface of the case.
     friction
@@ -177,7 +175,9 @@ def stress(
     Raises
     ------
     InputError
-        If `results` is no solution with fields, or an option is invalid.
+        If `results` is no solution with fields or prediction, or an option is invalid.
+    FileError
+        If the folder cannot be written.
 
     Examples
     --------

@@ -383,6 +383,13 @@ def test_predicted_contact() -> None:
     assert float(below.sigma_zz_amplitude.max()) > 0.5
 
 
+def test_a_body_at_rest_has_no_passage() -> None:
+    result = pyehl.predict(CASES / "table1.nml", "surface.pixels=64", "contact.slide_to_roll=2.0")
+    below = pyehl.stress(result, body=2, depths=[1e-5, 3e-5, 1e-4, 3e-4])
+    assert "is at rest" in below.attrs["cycle_note"]
+    assert "shear_amplitude" not in below
+
+
 @pytest.mark.parametrize(
     ("options", "expected"),
     [
