@@ -217,7 +217,7 @@ class Results:
     def key(self, row: Values, name: str) -> object:
         """Give the value of a key for a row; None if the case does not have it.
 
-        InputError if the key is not known.
+        InputError if there is neither such a column nor the case.
         """
         if name in row:
             return row[name]
@@ -227,7 +227,7 @@ class Results:
             )
         varied = (option(key, row[key]) for key in self.vary)
         group, _, key = name.partition(".")
-        return _settings(self.case, (*self.options, *varied))[group].get(key)
+        return _settings(self.case, (*self.options, *varied)).get(group, {}).get(key)
 
 
 @cache

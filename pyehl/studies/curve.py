@@ -198,9 +198,9 @@ def _row(
     elif full is not None:
         notes.append(f"full simulation: {full['status']}")
     if smooth["status"] == "converged" and smooth["H_c_extrapolated"] is None:
-        n = int(point.settings["grid"]["points"])
+        n = int(smooth["points"])
         notes.append(
-            f"film of {n} x {n} nodes, not extrapolated: grid.points = {2 * n - 1} may help"
+            f"film of {n} nodes along X, not extrapolated: grid.points = {2 * n - 1} may help"
         )
     if values["mu_smooth"] is None and smooth.get("F_error_note", "").startswith(NO_INLET):
         notes.append(f"smooth contact: {smooth['F_error_note']}")

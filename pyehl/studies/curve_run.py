@@ -205,17 +205,17 @@ def stribeck(
         A case in SI units, or the path of a case file.
     vary
         Values of contact.mean_velocity [m/s], lubricant.viscosity [Pa s], contact.load [N],
-        lubricant.temperature [degC], contact.slide_to_roll [-], as in `sweep`; the points are all
-        combinations.
+        contact.load_per_length [N/m], lubricant.temperature [degC], contact.slide_to_roll [-], as
+        in `sweep`; the points are all combinations.
     *options
         Values that replace those of the case, as for `Case`.
     ehl
-        Points at which the passage of the surface is solved in full.
+        Number of points at which the passage of the surface is solved in full.
     surfaces
-        Surfaces at each point, with consecutive seeds from that of the case.
+        Number of surfaces at each point, with consecutive seeds from that of the case.
     boundary_friction
         Coefficient of friction of the asperities [-]: adds friction by an empirical law for thin
-        films (``mu_empirical``); None: no friction at a film breakdown.
+        films (``mu_empirical``); None: without it.
     load_share
         B and C of that law: exp(-B (h_c/sigma)^C) of the load is on asperities.
     output
@@ -238,6 +238,8 @@ def stribeck(
     ------
     InputError
         If any case is not acceptable (nothing runs then), or `output` holds something else.
+    FileError
+        If `output` cannot be written.
     KeyboardInterrupt
         If it was interrupted; `output` has all finished tasks.
 

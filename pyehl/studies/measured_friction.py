@@ -52,12 +52,12 @@ LIKE_ERRORS = re.compile(r"err|std|sigma|uncert|dev|\+-|±", re.IGNORECASE)
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """Measured friction."""
+    """Measured friction, or a film of a rig."""
 
     abscissa: str  # name of the column of the curve that it was measured over
     places: Array  # values of it, (n,)
-    ordinate: str  # 'mu' or 'mu_ratio'
-    # Values and their errors (n,); zeros if no errors are given [-]
+    ordinate: str  # 'mu' or 'mu_ratio', of a rig also the name of a film
+    # Values and their errors (n,); zeros if no errors are given [-]; films [m]
     friction: Array
     error: Array
 

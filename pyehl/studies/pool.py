@@ -28,7 +28,7 @@ from pyehl.types import Row
 if TYPE_CHECKING:
     from loky import ProcessPoolExecutor
 
-# Maximum number of tasks that a worker gets at once, and their maximum total time [s]
+# Maximum number of tasks that a worker gets at once, and total time above which it gets no more [s]
 MAX_TASKS, SHORT = 64, 0.1
 # Number of workers that may die with a task before it has failed
 TRIES = 2

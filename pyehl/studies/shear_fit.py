@@ -2,7 +2,7 @@
 """Parameters of a shear law from a measured traction curve.
 
 Smooth contacts with the law are solved at each slide-to-roll ratio. The search starts from the best
-fit of the law over film and pressure of the Newtonian contact.
+fit of the law over film and pressure of the smooth contact of the case.
 """
 
 from __future__ import annotations
@@ -270,7 +270,7 @@ def intervals(
 
 
 class _Model:
-    """Friction by a law over film and pressure of the Newtonian contact."""
+    """Friction by a law over film and pressure of the smooth contact of the case."""
 
     def __init__(self, settings: Settings, law: str) -> None:
         self.law = law

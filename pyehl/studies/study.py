@@ -188,7 +188,7 @@ class Study:
     # table
     dimensions: tuple[tuple[Axis, ...], ...]
     run: str  # one of `RUNS`
-    outputs: tuple[str, ...] = ()  # names of results wanted in the table; empty: all numbers
+    outputs: tuple[str, ...] = ()  # results wanted in the table; empty: all numbers and some texts
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -202,7 +202,7 @@ class Study:
 
     @property
     def tracks(self) -> bool:
-        """Whether predictions include the tracks of a surface, which takes twice the time."""
+        """Whether predictions include the tracks of a surface, in nearly three times the time."""
         return self.run == "predict" and not set(TRACKS).isdisjoint(self.outputs)
 
     @property
@@ -315,8 +315,9 @@ def make(
 
     `zipped`: True, all keys vary together; else lists of the keys that do. `outputs` are the
     results wanted in the table, none: all numbers. `origin` names the study file in messages.
-    InputError if a key is varied twice, keys that vary together have different numbers of values, a
-    value (or combination of such keys) is repeated, or an output does not exist.
+    InputError if nothing is varied, a key is varied twice or also set by an option, keys that vary
+    together have different numbers of values, a value (or combination of such keys) is repeated,
+    the run or an output does not exist, or there are too many cases.
     """
     if run not in RUNS:
         raise InputError(

@@ -115,7 +115,7 @@ def gather(
     return outcome
 
 
-# Texts that are always in the table; other texts only if they are requested
+# Texts that are always in the table, and texts that are in it by default; others are on request
 TEXTS = ("status", "message")
 WORDS = ("flags", "outside_range", "assessment")
 
@@ -256,8 +256,9 @@ def sweep(
     run
         'solve', 'predict' or 'film'.
     outputs
-        Names of results; none: all numbers and ``assessment``. Mean and spread over the tracks of a
-        prediction, which take twice the time, are computed only if they are named.
+        Names of results; none: all numbers, ``flags``, ``outside_range`` and ``assessment``. Mean
+        and spread over the tracks of a prediction, which take nearly three times the time, are
+        computed only if they are named.
     output
         Folder for the journal and the table, from which an interrupted study is resumed; None: no
         files are written.
@@ -280,6 +281,8 @@ def sweep(
     ------
     InputError
         If any case is not acceptable (nothing runs then), or `output` holds another study.
+    FileError
+        If `output` cannot be written.
     KeyboardInterrupt
         If it was interrupted; `output` has all finished cases.
 

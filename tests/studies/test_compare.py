@@ -11,7 +11,7 @@ import pytest
 import pyehl
 from pyehl.cli import main
 from pyehl.errors import InputError
-from pyehl.studies.compare import SHIPPED, compare, read_reference, read_results
+from pyehl.studies.compare import SHIPPED, Results, compare, read_reference, read_results
 
 HEAD = "contact.moes_m,contact.moes_l,H_c,H_c_rtol"
 
@@ -33,6 +33,13 @@ def study(cases: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, 
         jobs=1,
     )
     return folder, [float(v) for v in data.H_c]
+
+
+def test_a_group_that_the_case_lacks_has_no_key():
+    results = Results(
+        "one", ({"H_c": 0.1},), many=False, case=pyehl.Case(contact={"moes_m": 100.0}).text
+    )
+    assert results.key({}, "second_surface.kind") is None
 
 
 def rows_of(name: str, points: int) -> dict[str, list[Any]]:

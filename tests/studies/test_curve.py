@@ -176,7 +176,7 @@ def test_temperature_and_load(cases: Path, tmp_path: Path):
     assert complaint == f"point 3 of 3 (contact.load=5000): not solved: {why}\n"
     light, heavy, lost = table(tmp_path / "l")
     assert (light["message"], light["status"]) == ("", FULL_FILM)
-    assert "257 x 257 nodes, not extrapolated: grid.points = 513 may help" in heavy["message"]
+    assert "257 nodes along X, not extrapolated: grid.points = 513 may help" in heavy["message"]
     assert heavy["status"] == FULL_FILM
     assert lost["status"] == "not solved"
     assert lost["message"] == why
