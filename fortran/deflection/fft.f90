@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Deflection by zero-padded real FFTs: exact to rounding
 !>
-!> The sum over n nodes per side is a circular convolution of length 2(n-1): the offsets -(n-1)
+!> The sum over n nodes per side is a circular convolution of length 2(n-1) or more: at 2(n-1) the offsets -(n-1)
 !> and n-1 coincide, but the kernel is even, so the result is exact for any P on
 !> the border. The kernel's transform is real. Rows of zeros that pad Y are never transformed in X: rows
 !> 1..ny are transformed to spectra, then a few columns at a time are gathered, padded, transformed along
 !> Y, multiplied and transformed back while they are in the cache, and only the rows needed
-!> are transformed back in X. Rows of zero pressure are skipped. On a folded grid columns are completed by
+!> are transformed back in X. Rows of zero pressure beside the borders are skipped. On a folded grid columns are completed by
 !> their mirror image; FFTW's cosine transforms took three times as long. A strip is periodic along Y: its columns
 !> are not padded, and a strip of one row is not transformed along Y.
 module ehl_fft
@@ -41,7 +41,7 @@ module ehl_fft
       logical :: mirror = .false.
       type(c_ptr) :: row_forward = c_null_ptr, row_backward = c_null_ptr
       type(c_ptr) :: column_forward = c_null_ptr, column_backward = c_null_ptr
-      !> Transform of the kernel over lx*ly: (0:ly/2, 0:lx/2), real
+      !> Transform of the kernel divided by lx*ly, real: offsets (0:ly/2, 0:lx/2)
       real(dp), pointer, contiguous :: kernel(:, :) => null()
       !> Spectra of the rows: (nk, ny)
       complex(zp), pointer, contiguous :: spectrum(:, :) => null()

@@ -58,7 +58,7 @@ contains
    end subroutine fill_grid_kernel
 
    !> Coefficient of a strip with one row: -2 k_b int ln|X - X'| dX' over a cell, near by the antiderivative, whose rounding error
-   !> increases as (x/h)^2, far away by three Gauss points
+   !> increases as x/h, far away by three Gauss points
    elemental real(dp) function row_coefficient(grid, factor, di)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor

@@ -200,7 +200,7 @@ contains
       call ascend(self%stages(1), self%stencils(1), self%omega, threads(1), self%work, w)
    end subroutine apply
 
-   !> Allocated bytes
+   !> Allocated bytes without the small tables of weights and corrections
    pure integer(int64) function bytes(self)
       class(mlmi_deflection_t), intent(in) :: self
       integer :: s

@@ -49,7 +49,8 @@ module ehl_mlmi_down
 contains
 
    !> Set up the grid low:high, coarsened along an axis with 2t-point transfers;
-   !> correction_reach: maximum distance in nodes at which a source corrects the deflection of a node
+   !> correction_reach: maximum distance at which a source corrects the deflection of a node, along the axis in nodes of the next
+   !> grid, across it in nodes of this one
    subroutine halve(self, low, high, axis, mirror, t, correction_reach, status)
       class(stage_t), intent(inout) :: self
       integer, intent(in) :: low(2), high(2), axis, t, correction_reach

@@ -22,7 +22,7 @@ module ehl_mlmi_up
 
    !> Maximum distance of a correction from its source, in mesh sizes
    integer, parameter :: reach = 48
-   !> Minimum number of values at offsets along >= 0 for an offset across to be kept
+   !> Minimum number of values at offsets along >= 0 for the largest offset across to be kept
    integer, parameter :: min_values = 3
    !> Maximum number of pairs of rows in a correction
    integer, parameter :: max_pairs = reach + 2
@@ -64,8 +64,8 @@ contains
 
    !> Corrections for the kernel K(d) = kernel_coefficient(factor, step(1)*di, step(2)*dj, hx, hy),
    !> coarsened along an axis (1: X, 2: Y), on a grid where no two nodes are further apart than
-   !> extent (X, Y). The tolerance is in units of K; it is not met if the corrections beyond
-   !> `reach` exceed it.
+   !> extent (X, Y). The tolerance is in units of K; it is not met if the values to be kept extend to
+   !> `reach`.
    subroutine make(self, axis, step, extent, factor, hx, hy, omega, tolerance, met)
       class(stencil_t), intent(inout) :: self
       integer, intent(in) :: axis, step(2), extent(2)

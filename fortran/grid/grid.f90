@@ -7,10 +7,10 @@ module ehl_grid
    private
    public :: grid_t, new_grid, new_strip, find_levels, max_coarsest, long_x
 
-   !> Minimum and maximum number of intervals per side of the coarsest grid, which is solved directly
+   !> Numbers of intervals of the shorter side of the coarsest grid: the minimum that halving leaves, and the maximum
    integer, parameter :: min_coarsest = 16, max_coarsest = 32
 
-   !> Grids with hx/hy of at least this are coarsened along Y alone (ehl_hierarchy)
+   !> Grids with hx/hy above this are coarsened along Y alone if possible (ehl_hierarchy)
    real(dp), parameter :: long_x = 1.6_dp
 
    !> Uniform node-centred grid; fields on it are real(dp) arrays of shape (nx, ny), X first.
@@ -98,8 +98,8 @@ contains
       grid%y0 = 0.0_dp
    end function new_strip
 
-   !> Number of levels of a grid of nx x ny nodes, and intervals of the sides of the coarsest one; 0 levels if halving the
-   !> intervals does not lead to even numbers of which the smaller is at most `max_coarsest`
+   !> Number of levels of a grid of nx x ny nodes, and intervals of the sides of the coarsest one; 0 levels if a side has fewer than
+   !> 3 nodes, or if halving the intervals does not lead to even numbers of which the smaller is at most `max_coarsest`
    pure subroutine find_levels(nx, ny, levels, intervals)
       integer, intent(in) :: nx, ny
       integer, intent(out) :: levels, intervals(2)
@@ -207,14 +207,14 @@ contains
       if (self%mirror .and. self%images(j) == 1) cell = 0.5_dp*cell
    end function cell
 
-   !> The row below row j: row 0 is row 2 of a folded grid, and the last row of a strip
+   !> The row below row j: row 0 is row 2 of a folded grid, and the last row of a whole strip
    elemental integer function south(self, j)
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j
       south = merge(merge(self%ny, 2, self%periodic .and. .not. self%mirror), j - 1, j == 1)
    end function south
 
-   !> The row above row j: row ny + 1 is row 1 of a strip, row ny - 1 of a folded one
+   !> The row above row j: row ny + 1 is row 1 of a whole strip, row ny - 1 of a folded one
    elemental integer function north(self, j)
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j

@@ -15,7 +15,7 @@ module ehl_alcouffe
    !> Weights of interpolation. A fine node between two coarse nodes is interpolated from these two, a fine node at the
    !> centre of a coarse cell from its four corners. Nodes that are not free are excluded.
    type :: transfer_t
-      !> Coarse columns and rows, and rows of fine nodes between coarse rows: ny - 1, but ny on a periodic strip, whose last coarse
+      !> Coarse columns and rows, and rows of fine nodes between coarse rows: ny - 1, but ny on a whole strip, whose last coarse
       !> row is followed by the first one
       integer :: nx = 0, ny = 0, between = 0
       !> Weights of the left and the right coarse node for the node between coarse (i, j) and (i+1, j)
@@ -70,7 +70,7 @@ contains
       north = modulo(j, max(self%ny, 1)) + 1
    end function north
 
-   !> The row below a coarse row j; 0 below the first row unless the grid is a periodic strip
+   !> The row below a coarse row j; 0 below the first row unless the grid is a whole strip
    elemental integer function south(self, j)
       class(transfer_t), intent(in) :: self
       integer, intent(in) :: j
@@ -78,8 +78,9 @@ contains
    end function south
 
    !> Weights for the operator of the fine grid: each coupling over the sum of all couplings and the excess; couplings to nodes
-   !> that are not free count in the sum only. No differences are formed: where one coupling is much larger than the others,
-   !> rounding errors would spoil the weights.
+   !> that are not free count in the sum only. Between two coarse nodes the correction is taken as constant across their edge, so
+   !> that couplings across it count only to nodes that are not free. No differences are formed: where one coupling is much
+   !> larger than the others, rounding errors would spoil the weights.
    subroutine find_weights(self, a, free, dependent)
       class(transfer_t), intent(inout) :: self
       type(nine_point_t), intent(in) :: a

@@ -30,8 +30,8 @@ module ehl_coarse_problem
    real(dp), parameter :: min_slack = 1.0e-8_dp
    !> Right-hand side of nodes that stay cavitated on a coarse level: they never require pressure
    real(dp), parameter :: never = 1.0e30_dp
-   !> Second difference of the logarithm of the conductance along X at which the correction of a spike is halved. Of 1, 3 and 10,
-   !> the values 1 and 3 give the fewest cycles in contacts with L from 17 to 27.
+   !> Second difference of the logarithm of the conductance at which the correction is halved, at a spike along X and at the end of
+   !> a roller along Y. Of 1, 3 and 10, the values 1 and 3 give the fewest cycles in contacts with L from 17 to 27.
    real(dp), parameter :: sharp = 3.0_dp
    !> The correction of a roller is rejected if the maximum pressure of the coarse grid exceeds this multiple of its start value
    real(dp), parameter :: max_growth = 1.5_dp
@@ -201,8 +201,8 @@ contains
       !$omp end parallel do
    end subroutine correct
 
-   !> Reduce the change of a row at a pressure spike that the coarse grid does not resolve: downstream of the inlet, where the
-   !> second difference of the logarithm of the conductance exceeds `sharp`. A coarse grid has that spike at another position.
+   !> Reduce the change of a row at a pressure spike that the coarse grid does not resolve: downstream of the inlet, by half where
+   !> the second difference of the logarithm of the conductance equals `sharp`. A coarse grid has that spike at another position.
    pure subroutine weaken_at_spikes(p, eps, change)
       real(dp), contiguous, intent(in) :: p(:), eps(:)
       real(dp), contiguous, intent(inout) :: change(:)
@@ -222,8 +222,8 @@ contains
       end do
    end subroutine weaken_at_spikes
 
-   !> Reduce the change of a row where a roller's contact ends along Y within a cell or two of a coarse grid: where the
-   !> second difference of the logarithm of the conductance along Y exceeds `sharp`
+   !> Reduce the change of a row where a roller's contact ends along Y within a cell or two of a coarse grid: by half where the
+   !> second difference of the logarithm of the conductance along Y equals `sharp`
    pure subroutine weaken_at_ends(fine, j, change)
       type(level_t), intent(in) :: fine
       integer, intent(in) :: j

@@ -24,7 +24,7 @@ module ehl_coarsest
    integer, parameter :: max_halvings = 12
 
    !> Work space of the dense Newton iteration. Unknowns are the pressures of the interior nodes,
-   !> column by column of the grid's storage, and H00 as the last one.
+   !> row by row of the grid, and H00 as the last one.
    type :: coarsest_t
       integer :: n = 0, first = 0, last = 0
       !> Deflection by a unit pressure at an unknown's node (n), at any node (nx*ny)
@@ -90,7 +90,7 @@ contains
       self%factored = .false.
    end subroutine setup
 
-   !> Allocated bytes
+   !> Allocated bytes of kernel, Jacobian and LU factors
    pure integer(int64) function bytes(self)
       class(coarsest_t), intent(in) :: self
       bytes = 0
@@ -297,6 +297,7 @@ contains
          end do
       end subroutine add_poiseuille
 
+      !> Add a derivative with respect to the pressure of node (ii, jj) to the row of unknown u
       subroutine add_pressure(ii, jj, value)
          integer, intent(in) :: ii, jj
          real(dp), intent(in) :: value
@@ -304,6 +305,7 @@ contains
          self%jacobian(unknown(self, nx, ii, jj), u) = self%jacobian(unknown(self, nx, ii, jj), u) + value
       end subroutine add_pressure
 
+      !> Add a derivative with respect to the film at node (ii, jj) to the row of unknown u
       subroutine add_film(ii, jj, value)
          integer, intent(in) :: ii, jj
          real(dp), intent(in) :: value

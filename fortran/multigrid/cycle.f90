@@ -31,7 +31,8 @@ module ehl_cycle
       integer :: pre = 2, post = 1
       !> Residual (rms) of the finest level below which the remaining sweeps after the correction are skipped
       real(dp) :: enough = 0.0_dp
-      !> Maximum change of the logarithm of a node's conductance in a sweep, for time steps and damped cycles
+      !> Maximum change of the logarithm of a node's conductance in a sweep; on grids of several rows only in time steps and damped
+      !> cycles
       real(dp) :: max_log_change = usual_log_change
       !> Relaxation factors of a sweep and of the coarse-grid correction
       real(dp) :: relaxation_factor = 1.0_dp, correction_factor = 1.0_dp
@@ -165,12 +166,12 @@ contains
       call update_coefficients(fine)
    end subroutine prolong_solution
 
-   !> Cubic interpolation of a field, row by row
+   !> Cubic interpolation of a field along X and along Y
    pure subroutine refine(values, grid, fine)
       real(dp), intent(in) :: values(:, :)
       !> The coarse grid
       type(grid_t), intent(in) :: grid
-      !> Shape of the fine grid
+      !> The field on the fine grid
       real(dp), intent(out) :: fine(:, :)
       integer :: l, n, below, above
 
@@ -195,6 +196,7 @@ contains
       end do
    end subroutine refine
 
+   !> Cubic interpolation of a row; beyond its ends it is constant
    pure subroutine refine_line(a, b)
       real(dp), intent(in) :: a(:)
       real(dp), intent(out) :: b(:)

@@ -22,11 +22,11 @@ module ehl_hierarchy
    private
    public :: hierarchy_t
 
-   !> Number of nodes of a grid above which several threads are faster, measured on two shared cores; see docs/design.md
+   !> Number of nodes of a grid from which on several threads are faster, measured on two shared cores; see docs/design.md
    integer, parameter :: parallel_from = 60000
-   !> Grids with hy/hx of at least this are coarsened along X alone
+   !> Grids with hy/hx above this are coarsened along X alone if possible
    real(dp), parameter :: long_y = 3.0_dp
-   !> Maximum number of unknowns of a grid that is solved directly, and minimum number of intervals along Y
+   !> Number of unknowns above which the coarsest grid is coarsened along Y if possible, and minimum number of intervals along Y
    integer, parameter :: max_unknowns = 250, min_rows = 8
 
    type :: hierarchy_t
@@ -57,7 +57,7 @@ module ehl_hierarchy
 
 contains
 
-   !> Define all levels; only the arrays of the coarsest one are allocated yet
+   !> Define all levels; only the arrays of the coarsest one of full multigrid and of its coarse grids are allocated yet
    subroutine setup(self, coarsest, n, lubricant, speed_parameter, kernel_factor, engine, threads, status)
       class(hierarchy_t), intent(inout) :: self
       !> Coarsest grid, and maximum number of levels
@@ -160,7 +160,7 @@ contains
       end do
    end subroutine prepare_steps
 
-   !> Allocate what Alcouffe coarsening needs unless it is allocated
+   !> Allocate what Alcouffe coarsening needs, on grids that are coarsened along both axes, unless it is allocated
    subroutine prepare_coarsening(self, status)
       class(hierarchy_t), intent(inout) :: self
       type(status_t), intent(inout) :: status

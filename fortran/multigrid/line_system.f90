@@ -18,10 +18,10 @@
 !>    s(i, l) = d(rho H)(i)/d d(i+l) = rho(i) K(l) + [H d rho/dP](i) (1 if l = 0, -q D(i+l) if |l| = 1, else 0)
 !>    g(i)    = (1 - D(i)) d eps(i)/dP
 !>
-!> e, w: couplings to the east and to the west, o: minus the sum of those to other rows, e', w', o': their change with the
-!> conductance (poiseuille.f90, line_terms_t); a: the mean of all four over the mean of e and w, 1 where the conductances
-!> along X and Y are equal; c: wedge.f90; K(l): deflection at a distance of l nodes by a unit change, neglected
-!> beyond |l| = 2. An inactive node (level.f90) has d(i) = 0. A touching node (boundary_film.f90)
+!> e, w: couplings to the east and to the west, o: minus the sum of those to other rows, e', w': their change with the
+!> conductance, o': that of the flow from other rows (poiseuille.f90, line_terms_t); a: the mean of all four over the mean
+!> of e and w, 1 where the conductances along X and Y are equal; c: wedge.f90; K(l): deflection at a distance of l nodes by
+!> a unit change, neglected beyond |l| = 2. An inactive node (level.f90) has d(i) = 0. A touching node (boundary_film.f90)
 !> is not coupled to its line: rate s(i, 0) d(i) = -r(i).
 !>
 !> The systems are assembled and eliminated in one pass along X for `line_width` lines side by side.
@@ -40,7 +40,7 @@ module ehl_line_system
    integer, parameter :: nr = near_reach
    !> Smaller pivots count as zero; those of nodes that may change are of the order of the wedge term's factor
    real(dp), parameter :: min_pivot = 1.0e-100_dp
-   !> Data of a node: pressure, density, H d rho/dP, the derivative of the conductance with respect to P, 1 if
+   !> Data of a node: pressure, density, H d rho/dP, the derivative of the conductance with respect to P (0 if distributive), 1 if
    !> distributive, the residual; and of the Poiseuille term, see line_terms_t
    integer, parameter :: f_p = 1, f_rho = 2, f_h_drho_dp = 3, f_gain = 4, f_dipole = 5, f_residual = 6, &
                          f_other = 7, f_other_rate = 8, f_east = 9, f_east_rate = 10

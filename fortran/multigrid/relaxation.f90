@@ -28,10 +28,10 @@ module ehl_relaxation
    !> The latter of soft contacts: where the viscosity hardly increases the two terms are similar in all of the contact, not only
    !> at its edge, and smooth changes overshoot (L = 0.5, M = 2000: 4 cycles, not converged in 30 with 0.5)
    real(dp), parameter :: omega_soft = 0.25_dp
-   !> The latter in time steps, where the smooth part of changes is removed
+   !> Both in time steps, where the smooth part of changes is removed
    real(dp), parameter :: omega_step = 0.8_dp
-   !> Default limit of the change of the logarithm of a node's conductance in a sweep of a time step: the linearised line system
-   !> does not hold for larger changes
+   !> Default limit of the change of the logarithm of a node's conductance in a sweep, of time steps and on grids of one row: the
+   !> linearised system does not hold for larger changes
    real(dp), parameter :: usual_log_change = 3.0_dp
 
 contains

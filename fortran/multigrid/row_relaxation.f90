@@ -118,7 +118,7 @@ contains
                fraction = merge(1.0_dp - level%supply%passed_fraction, 1.0_dp, passing(i - 1))
                if (fraction > 0.0_dp) call add_neighbour(i, -1, fraction*terms%east(k - 1), fraction*terms%east_rate(k - 1))
             end if
-            ! every element is written once: see solve
+            ! all elements by the kernel, then again those that have a local term
             do l = -row_below, row_above
                band(l, i) = film(-1)*kernel(l + 1) + film(-2)*kernel(l + 2) + film(0)*kernel(l) + film(1)*kernel(l - 1)
             end do

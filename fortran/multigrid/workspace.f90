@@ -12,7 +12,7 @@ module ehl_workspace
 
    !> The line systems include the deflection kernel up to this distance along X
    integer, parameter :: near_reach = 2
-   !> The equations of a grid of one row include it up to `row_reach`, and couple row_below and row_above nodes on either side
+   !> The equations of a grid of one row include it up to `row_reach`, and couple row_below nodes upstream and row_above downstream
    integer, parameter :: row_reach = 15, row_below = row_reach + 2, row_above = row_reach + 1
    !> Numbers per node from which the line systems are assembled
    integer, parameter :: line_fields = 10
@@ -103,7 +103,7 @@ contains
       end associate
    end subroutine setup
 
-   !> The kernel near the source for the equations of one row. Its value at the end of the reach is subtracted, because a constant
+   !> The kernel near the source for the equations of one row. Its value one node beyond the reach is subtracted, because a constant
    !> is part of H00 and a truncated logarithm would have a step there. A fraction of the deflection by the whole contact is
    !> added: without it smooth changes overshoot so much on fine grids that cycles diverge. With this fraction and width 2 cycles
    !> per level suffice from M = 0.5 to 500 on 65 to 4097 nodes.
@@ -115,7 +115,7 @@ contains
       integer :: d
 
       near = [(coefficient(grid, factor, d, 0), d=-row_reach, row_reach)] - coefficient(grid, factor, row_reach + 1, 0)
-      ! 4 k_b (1 - reach): sum of the kernel minus its value at the edge of the contact, without the nodes within reach
+      ! 4 k_b: sum over the contact of the kernel minus its value at the edge; 4 k_b times the reach: sum of the part above
       near = near + fraction*4.0_dp*factor*max(0.0_dp, 1.0_dp - (row_reach + 1)*grid%hx) &
              *[(exp(-(d/width)**2), d=-row_reach, row_reach)]/(width*sqrt(pi))
    end function kernel_of_row

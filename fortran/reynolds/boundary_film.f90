@@ -55,7 +55,7 @@ module ehl_boundary_film
       logical, private :: frozen = .false.
       !> 1 where a node is touching, else 0
       real(dp), allocatable, private :: touching(:, :)
-      !> Film for the conductance, at least the boundary film; that of an iterate may be thinner
+      !> Film for the conductance, at least the boundary film; the film H of an iterate may be thinner
       real(dp), allocatable, private :: film(:, :)
       !> Residuals of touching nodes, else 0, for restriction to the coarse level
       real(dp), allocatable, private :: touching_residual(:, :)
@@ -135,7 +135,7 @@ module ehl_boundary_film
          integer, intent(in) :: rows(:), last
          !> Shape (nx, ny)
          real(dp), contiguous, intent(in) :: rhs(:, :), mass_content(:, :)
-         !> Shape (lines, last) and (lines, nx); `touching` is not set where no node touches
+         !> Shape (lines, last) and (lines, nx); `touching` is not set without a boundary film
          real(dp), intent(inout) :: residual(:, :), touching(:, :)
          logical, intent(out) :: any_touches
       end subroutine line_residuals
@@ -311,7 +311,7 @@ contains
       if (self%active) supports = p > 0.0_dp .and. mass_content <= (1.0_dp + same_film)*self%thickness
    end function supports
 
-   !> Set the shear stress of a row to that of the boundary film where the bodies touch
+   !> Set the shear stress of a row to that of the boundary film where the bodies touch, and the Newtonian stress to 0
    pure subroutine stress_row(self, p, mass_content, friction, newtonian, stress)
       class(boundary_film_t), intent(in) :: self
       !> Of the row, shape (nx)

@@ -21,7 +21,7 @@ module ehl_oil_flow
       !> Imbalance over the flow that enters; 0 where the inlet is flooded. In a time step at least over the flow of the
       !> layer, or of the minimum rho H of each row if that is less, at the mean velocity of the case.
       real(dp) :: imbalance = 0.0_dp
-      !> Oil between the faces where it enters and leaves, int rho H dX dY [a^4/R], and its time derivative
+      !> Oil between the faces where it enters and leaves in a time step, int rho H dX dY [a^4/R], and its time derivative
       real(dp) :: content = 0.0_dp, gain = 0.0_dp
       !> Whether the layer fills the gap at the border of the domain
       logical :: fills_border = .false.
@@ -124,7 +124,8 @@ contains
       end do
    end function leaving
 
-   !> Flow in row j through the east faces of the second column and of the last one
+   !> Flow in row j through the east faces of the second column and of last_counted, or of the last node with pressure where the
+   !> meniscus is fixed
    subroutine ends_of_row(level, j, first, last)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j

@@ -17,7 +17,7 @@ module ehl_poiseuille
    !> Maximum number of nodes of a row that line systems assemble at a time
    integer, parameter :: block_size = 32
 
-   !> Arrays of shape (nx, ny). All values are per area.
+   !> Pressures have the shape (nx, ny). Values are per area unless stated otherwise.
    type :: poiseuille_t
       type(grid_t), private :: grid
       !> Whether the term is `product` over the cell area, in place of the five-point difference
@@ -37,12 +37,13 @@ module ehl_poiseuille
       procedure :: across
    end type poiseuille_t
 
-   !> Coefficients of a line system along X for a block of a row; nodes are numbered from 1. Zero at border nodes, which have no
-   !> equation.
+   !> Coefficients of a line system along X for a block of a row; nodes are numbered from 1. Not set at border nodes, which have no
+   !> equation, except for the coupling of the first node to the east.
    type :: line_terms_t
       !> Right-hand side minus the term
       real(dp) :: rest(block_size) = 0.0_dp
-      !> Minus the sum of the couplings to other rows and the excess; its derivative with respect to the node's conductance
+      !> Minus the sum of the couplings to other rows and the excess; derivative of the flow from these rows with respect to the
+      !> node's conductance
       real(dp) :: other(block_size) = 0.0_dp, other_rate(block_size) = 0.0_dp
       !> Coupling to the next node of the row, starting with the node before the block; its derivative with respect to the
       !> conductance of either node
@@ -281,7 +282,7 @@ contains
       end do
    end subroutine integrate
 
-   !> Magnitude of the change of the term along X by a change of the pressure in row j, with the conductance of the node itself
+   !> Minus the change of the term along X by a change of the pressure in row j, with the conductance of the node itself
    pure subroutine flow_row(self, flow, j, change, values)
       class(poiseuille_t), intent(in) :: self
       class(flow_t), intent(in) :: flow
@@ -310,7 +311,7 @@ contains
       through_east = 0.5_dp*(flow%eps(i, j, dir_x) + flow%eps(i + 1, j, dir_x))*(p(i, j) - p(i + 1, j))/self%grid%hx
    end function through_east
 
-   !> Total Poiseuille flow from row j to the adjacent row `to`, in columns from the third on
+   !> Total Poiseuille flow from row j to the adjacent row `to`, in columns 3 to nx-1
    pure real(dp) function across(self, p, flow, j, to)
       class(poiseuille_t), intent(in) :: self
       real(dp), contiguous, intent(in) :: p(:, :)

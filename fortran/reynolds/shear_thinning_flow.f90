@@ -63,7 +63,6 @@ contains
 
       self%inverse_speed = inverse_speed
       self%sliding = stress
-      self%cached%follows = stress > 0.0_dp
    end subroutine rescale
 
    !> Weaken shear thinning as if the stress of the law were 1/fraction times as large

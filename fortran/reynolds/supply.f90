@@ -22,7 +22,6 @@
 !>
 !> The scheme conserves oil. Every level has a supply; without setup it is inactive.
 module ehl_supply
-   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
@@ -48,7 +47,6 @@ module ehl_supply
       procedure :: setup
       procedure :: set_step
       procedure :: transport_row
-      procedure :: bytes
    end type supply_t
 
 contains
@@ -139,11 +137,4 @@ contains
          if (present(missing)) missing(i) = flow
       end do
    end subroutine transport_row
-
-   !> Allocated bytes
-   pure integer(int64) function bytes(self)
-      class(supply_t), intent(in) :: self
-      bytes = 0
-      if (self%active) bytes = 8*size(self%layer, kind=int64)
-   end function bytes
 end module ehl_supply

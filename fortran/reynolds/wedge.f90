@@ -27,7 +27,7 @@ module ehl_wedge
       !> The part of c(0) that is due to the squeeze term; 0: steady
       real(dp) :: squeeze = 0.0_dp
       real(dp), private :: inverse_step = 0.0_dp
-      !> Factors of the earlier times over the time step
+      !> Factors of the earlier times, to be divided by the time step
       real(dp), private :: past(old_times) = [-2.0_dp, 0.5_dp]
    contains
       procedure :: set_steady

@@ -21,7 +21,7 @@ module ehl_yielding
       logical :: coarse = .false.
       !> P_Y [p_h]
       real(dp), private :: max_pressure = 0.0_dp
-      !> rho (H + D) where a node yields, else 0, shape (nx, ny); of size 0 where none may
+      !> rho (H + D) where a node yields, else 0, shape (nx, ny); not allocated if none may
       real(dp), allocatable, private :: mass(:, :)
    contains
       procedure :: setup

@@ -99,7 +99,7 @@ module ehl_contact_run
 
    ! in contact_start.f90
    interface
-      !> Start the time steps from the steady contact, or resume from a saved state
+      !> Start the time steps from the steady contact or from a prediction, or resume from a saved state
       module subroutine begin_steps(self, status)
          class(contact_run_t), intent(inout) :: self
          type(status_t), intent(inout) :: status
@@ -177,7 +177,7 @@ contains
       call self%history%init(columns)
    end subroutine begin_history
 
-   !> Record a cycle of the smooth contact on level n
+   !> Record a cycle of the smooth contact on level n. If another phase follows no row is added to the history.
    subroutine record_cycle(self, n, outcome, status)
       class(contact_run_t), intent(inout) :: self
       integer, intent(in) :: n
@@ -305,7 +305,7 @@ contains
       is_filling = self%transient%mean%transit > 0.0_dp .and. self%transient%mean%n < self%transient%mean%filled
    end function is_filling
 
-   !> Whether the contact is rough in the present phase
+   !> Whether the phase of the smooth contact has ended
    pure logical function is_rough(self)
       class(contact_run_t), intent(in) :: self
       is_rough = self%phase /= phase_smooth

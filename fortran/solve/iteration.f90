@@ -104,7 +104,7 @@ contains
    end function cycle_status
 
    !> Reduction q of the error per cycle, the ratio of the last two changes: the remaining error is q/(1 - q) times the last change.
-   !> The change of the first cycle includes the change of grid or problem, and does not measure the next.
+   !> After the first cycle, before which the grid or the problem was another, q is `min_reduction`.
    pure real(dp) function reduction(change, change_before, cycles, residual_ratio, lower_bound) result(q)
       real(dp), intent(in) :: change(:), change_before(:)
       !> Cycles made

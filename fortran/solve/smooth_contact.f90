@@ -28,7 +28,7 @@ module ehl_smooth_contact
    !> Change of the film per relative error of the load: the deflection by the Hertz pressure differs from its mean over the
    !> contact by 1/5 at the centre and by 3/10 at the edge [a^2/R]
    real(dp), parameter :: film_per_load = 0.3_dp
-   !> Residual above which a cycle is rejected, unless the previous residual was nearly as large
+   !> Residual above which a cycle before the first accepted one is rejected, and a guarded level at its cycle limit is not solved
    real(dp), parameter :: max_residual = 2.0_dp
    !> Residual above which coarse grids also correct sharp pressure spikes: relaxation alone does not move a distant spike
    !> (kappa = 11, L = 26)
@@ -40,16 +40,17 @@ module ehl_smooth_contact
 
    !> Record of the cycles of a level, used to reject failed ones
    type :: guard_t
-      !> Degree of damping of the next cycle (0: none), of the last rejected cycle, and minimum degree for the rest of the level
+      !> Degree of damping of the next cycle (0: none), degree after the last rejection, and minimum for the rest of the level
       integer :: damping = 0, last_damping = 0, min_damping = 0
-      !> That of the first accepted cycle, with which the next finer grid begins
+      !> That of the first accepted cycle, with which the next finer grid begins in an ellipse
       integer :: first = 0
-      !> Cycles since the degree was changed
+      !> Cycles since the degree or the fraction below was changed
       integer :: cycles_since = 0
       !> State before the last cycle
       real(dp), allocatable :: p_before(:, :)
       real(dp) :: h00_before = 0.0_dp
-      !> Fraction of the sliding and of the pressure gradient in the shear-thinning law; whether it was ever less than 1
+      !> Fraction of the sliding and of the pressure gradient in the shear-thinning law, and before its last increase; whether it
+      !> was ever less than 1
       real(dp) :: shear_fraction = 1.0_dp, shear_fraction_before = 1.0_dp
       logical :: softened = .false.
       !> Residual after the last accepted cycle, and some cycles earlier
@@ -153,8 +154,9 @@ module ehl_smooth_contact
       end subroutine next_passage
 
       !> Restart after a failed level: on the next finer one, where the discrete problem is better posed; after a failure on the
-      !> finest one from the first level, once with damped and once with guarded cycles, or with spikes left to relaxation. If
-      !> a level with a reduced shear-thinning law failed, damped cycles from the first level are tried before finer levels.
+      !> finest one from the first level, once with damped cycles (if allowed), with guarded cycles, with spikes left to relaxation
+      !> and with the meniscus of a starved line fixed, as far as these apply. If a level with a reduced shear-thinning law failed,
+      !> damped cycles from the first level are tried before finer levels.
       module subroutine restart(self, finest, outcome)
          class(smooth_contact_t), intent(inout) :: self
          logical, intent(in) :: finest
@@ -291,7 +293,7 @@ contains
       self%share_change = change
    end subroutine estimate_share_error
 
-   !> Whether the level is solved; where the solution may end this includes the load
+   !> Whether the level is solved; where the solution may end this includes the load and the oil flow
    pure logical function converged(self)
       class(smooth_contact_t), intent(in) :: self
       converged = self%failure_status() == outcome_running .and. self%m%holds .and. .not. self%guard%shear_fraction < 1.0_dp .and. &

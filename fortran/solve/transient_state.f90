@@ -90,8 +90,8 @@ module ehl_transient_state
 
    ! in transient_start.f90
    interface
-      !> Start from the steady solution of level n; the moving roughness is added to its film. In a thick film roughness has no
-      !> effect: the steps begin when the front, with half its length, reaches x_matters.
+      !> Start from the steady solution of level n; the moving roughness is subtracted from its film. In a thick film roughness has
+      !> no effect: with `skip` the steps begin when the front, with half its length, reaches x_matters.
       module subroutine start(self, level, n, contact, surfaces, duty, skip, friction_smooth, status)
          class(transient_t), intent(inout) :: self
          type(level_t), intent(inout) :: level
@@ -265,7 +265,7 @@ contains
       call keep(level, self%mass_content, self%p_before)
    end subroutine accept
 
-   !> Advance the time to the end of a solved step, and record its mean values
+   !> Advance the time to the end of a solved step, and record its values for the mean
    subroutine count_step(self, level, status)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(in) :: level

@@ -266,7 +266,7 @@ contains
       steps_expected = (self%end_time() - time)*self%max_speed()/(self%step_factor*mesh)
    end function steps_expected
 
-   !> Times of the next two rows after a given time; huge after the last row
+   !> Times of the next two rows after a given time, the second as if the table were repeated; huge after the last row
    pure function next_knot(self, time) result(knots)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: time

@@ -131,6 +131,7 @@ contains
       amplitude_ratio = deviation(self%film(first:self%n))/deviation(self%roughness(first:self%n))
    end function amplitude_ratio
 
+   !> Standard deviation of values
    pure real(dp) function deviation(v)
       real(dp), intent(in) :: v(:)
       deviation = sqrt(sum((v - sum(v)/size(v))**2)/size(v))

@@ -19,7 +19,8 @@ module ehl_predicted_start
    type :: predicted_start_t
       !> Time of the start
       real(dp) :: time = 0.0_dp
-      !> Predicted pressure increase by the roughness at the times of `steps_ago` [p_h], shape (nx, ny, 4)
+      !> Predicted pressure increase by the roughness at the times of `steps_ago` [p_h], shape (nx, ny, 4); on the next coarser grid
+      !> at the last three times there, shape (nx, ny, 3)
       real(dp), allocatable :: pressure(:, :, :)
    contains
       procedure :: set_pressure

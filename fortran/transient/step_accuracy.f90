@@ -46,8 +46,8 @@ module ehl_step_accuracy
 
 contains
 
-   !> Rms residual at which the algebraic error of mu_r/mu_s is below a tenth of the discretisation error in all cases: 8e-5 at
-   !> h = 1/128, proportional to h (docs/design.md)
+   !> Rms residual at which the algebraic error of mu_r/mu_s is below the fraction `accuracy` of the discretisation error in all
+   !> cases: 8e-5 at h = 1/128 and a tenth, proportional to both (docs/design.md)
    pure real(dp) function step_tolerance(mesh, accuracy)
       real(dp), intent(in) :: mesh, accuracy
       step_tolerance = 8.0e-4_dp*accuracy*(128.0_dp*mesh)

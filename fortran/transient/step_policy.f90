@@ -11,7 +11,8 @@ module ehl_step_policy
    public :: step_ends, step_continues, step_restarts, damped_sweep, squeeze_correction
 
    !> Attempts at a step: from the predicted pressure; from the pressure of the last step, with limited relaxation; the same with a
-   !> lower limit; the same with damped relaxation and coarse-grid corrections. The next attempt starts when the residual stalls.
+   !> lower limit; the same with damped relaxation and coarse-grid corrections. The next attempt starts when the residual stalls:
+   !> with solid contact, or where only the finest level is damped, the last one.
    integer, parameter :: attempt_predicted = 1, attempt_last = 2, attempt_limited = 3, attempt_damped = 4
    !> Maximum change of the logarithm of a node's conductance in a sweep, by attempt
    real(dp), parameter :: max_log_change(4) = usual_log_change/[1.0_dp, 3.0_dp, 9.0_dp, 9.0_dp]
