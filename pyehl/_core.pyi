@@ -1,8 +1,8 @@
 """The compiled extension: modules of fortran/bind.
 
-Text goes in and comes out as bytes. Arrays are float64 in Fortran order, first index X; they are
-passed by reference, never copied: another dtype or order is refused with a ValueError. Every
-routine that can fail ends its results with (status, message).
+Text goes in and comes out as bytes. Arrays are in Fortran order, first index X: _Array float64,
+_Single float32, _Indices int32. They are passed by reference, never copied: another dtype or order
+is refused with a ValueError. Every routine that can fail ends its results with (status, message).
 """
 
 from collections.abc import Sequence

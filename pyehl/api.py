@@ -70,7 +70,7 @@ def solve(
     InputError
         If the case is not acceptable, or `output` holds something else than results of `solve`.
     FileError
-        If a height map cannot be read, or the folder cannot be written.
+        If a height map cannot be opened, or the folder cannot be written.
     NoMemoryError
         If the arrays do not fit into memory.
     NotConverged
@@ -168,7 +168,7 @@ def predict(
         If the case is not acceptable, or has no rough surface, or `output` holds something else
         than a prediction.
     FileError
-        If a height map cannot be read, or the folder cannot be written.
+        If a height map cannot be opened, or the folder cannot be written.
 
     Examples
     --------

@@ -187,7 +187,11 @@ def new_file(path: AnyPath) -> Iterator[Path]:
 
 
 def write_json(path: AnyPath, values: Mapping[str, object], *, allow_nan: bool = False) -> None:
-    """Write values as JSON, whole or not at all; FileError if they cannot be written."""
+    """Write values as JSON, whole or not at all.
+
+    `allow_nan`: NaN and infinity as Python writes them; without it a ValueError. FileError if the
+    file cannot be written.
+    """
     with new_file(path) as fresh:
         text = json.dumps(values, indent=2, allow_nan=allow_nan)
         fresh.write_text(text + "\n", encoding="utf-8")

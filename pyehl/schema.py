@@ -75,7 +75,7 @@ f | left_out |  | keys that the formulas ignore
 f | regime |  | nearest asymptote: rigid or elastic, isoviscous or piezoviscous
 f | W | - | w/(E' R^2)
 st | points | - | nodes along X; in a round contact also along Y
-s | points_y | - | nodes along Y in an elliptical contact
+s | points_y | - | nodes along Y, except in a round contact or a single row
 s | x_mesh | a | mesh size along X
 s | y_mesh | a | mesh size along Y
 s | half_domain | | whether only Y >= 0 was solved
@@ -162,8 +162,8 @@ s | rough_residual | - | residual at the end for a rough surface at rest
 s | x_start | a | origin of a rough surface at rest
 s | second_x_start | a | origin of a second rough surface at rest
 sp | mu_ratio | - | friction over that of the smooth contact: mean over a period or a passage
-sp | mu_ratio_min | - | minimum of mu_r/mu_s over the passage
-sp | mu_ratio_max | - | maximum of mu_r/mu_s over the passage
+sp | mu_ratio_min | - | minimum of mu_r/mu_s over the period or passage
+sp | mu_ratio_max | - | maximum of mu_r/mu_s over the period or passage
 s | mu_ratio_extrapolated | - | mu_ratio extrapolated to fine grids, where both resolve the surface
 s | mu_ratio_error | - | error of mu_ratio: the sum of its parts; null if a part is not known
 sp | mu_ratio_error_note | | reason if the error of mu_ratio is not known
@@ -202,10 +202,10 @@ s | flowing_load_share_at_hardness | - | share of the load where solids yield un
 s | mass_defect | - | mass defect of the boundary film over the flow in the direction of motion
 sp | mu_note | | effects that mu includes and neglects
 sp | flash_temperature_K | K | maximum flash temperature rise (Tian & Kennedy), at mu
-sp | shear_rate_mean_per_s | 1/s | mean shear rate
-sp | shear_stress_max_Pa | Pa | maximum shear stress
-s | rolling_moment | p_h a^3 | iint H/2 dP/dX of the smooth contact, which resists the rolling
-s | rolling_moment_N_m | N m | R iint h/2 dp/dx of the smooth contact, which resists the rolling
+sp | shear_rate_mean_per_s | 1/s | mean shear rate of the smooth contact
+sp | shear_stress_max_Pa | Pa | maximum shear stress of the smooth contact
+s | rolling_moment | p_h a^3 | iint H/2 dP/dX, smooth contact; of a line in p_h a^2
+s | rolling_moment_N_m | N m | R iint h/2 dp/dx of the smooth contact
 s | rolling_moment_N | N | rolling moment of a line contact, per length
 spt | shear_law | | law of the shear stress
 sp | slide_to_roll | - | (u1 - u2)/u

@@ -99,6 +99,8 @@ class Solver(SolverHandle):
     ------
     InputError
         If the case cannot be solved.
+    FileError
+        If a height map cannot be opened.
     NoMemoryError
         If its arrays do not fit, or too many solvers are open.
 
@@ -295,7 +297,7 @@ def solver_on_heights(
 
     Raises
     ------
-    InputError, NoMemoryError
+    InputError, FileError, NoMemoryError
         As `Solver`.
     """
     solver = Solver.__new__(Solver)

@@ -30,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="at the velocity of the second surface of the case, not of the first",
     )
     parser.add_argument(
-        "--quick", action="store_true", help="waves down to a/16 only, in a third of the time"
+        "--quick", action="store_true", help="waves down to a/16 only, with a sixth of the work"
     )
 
 

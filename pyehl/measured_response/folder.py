@@ -87,7 +87,7 @@ def response(
     force
         Other files may be in the folder; they stay.
     quick
-        Waves down to a/16 only, in a third of the time.
+        Waves down to a/16 only, with a sixth of the work: nodes times steps.
     second
         At the velocity of the second surface of the case, not of the first.
     progress
