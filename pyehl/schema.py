@@ -188,8 +188,8 @@ sp | temperature_rise_max_K | K | maximum temperature rise (mean across the film
 sp | temperature_rise_wall_1_max_K | K | maximum temperature rise of the surface of body 1
 sp | temperature_rise_wall_2_max_K | K | maximum temperature rise of the surface of body 2
 sp | boundary_film | a^2/R | boundary film at ambient pressure
-sp | contact_load_share | - | load share of solid contact: a mean like mu_ratio, or over a duty
-sp | contact_load_share_error | - | the sum of its parts; in a prediction the error due to the film
+sp | contact_load_share | - | load share of solid contact: averaged as mu_ratio, or over a duty
+sp | contact_load_share_error | - | sum of its parts; in a prediction the error due to the film
 s | contact_load_share_error_grid | - | part of contact_load_share_error due to the grid (two grids)
 s | contact_load_share_error_stop | - | part of contact_load_share_error due to the end of the run
 sp | contact_load_share_error_note | | reason if contact_load_share_error is not known
@@ -204,8 +204,8 @@ sp | mu_note | | effects that mu includes and neglects
 sp | flash_temperature_K | K | maximum flash temperature rise (Tian & Kennedy), at mu
 sp | shear_rate_mean_per_s | 1/s | mean shear rate of the smooth contact
 sp | shear_stress_max_Pa | Pa | maximum shear stress of the smooth contact
-s | rolling_moment | p_h a^3 | iint H/2 dP/dX, smooth contact; of a line in p_h a^2
-s | rolling_moment_N_m | N m | R iint h/2 dp/dx of the smooth contact
+s | rolling_moment | p_h a^3 | integral of H/2 dP/dX, smooth contact; of a line in p_h a^2
+s | rolling_moment_N_m | N m | R times the integral of h/2 dp/dx, smooth contact
 s | rolling_moment_N | N | rolling moment of a line contact, per length
 spt | shear_law | | law of the shear stress
 sp | slide_to_roll | - | (u1 - u2)/u
