@@ -50,6 +50,8 @@ def pressure_and_film(
         (n,) coordinate in Hertz radii.
     pressure, film
         P and H, (n,), in Hertz units.
+    scales
+        For SI units; None for Hertz units.
     name
         Name of the coordinate, 'x' or 'y'.
     half
@@ -235,6 +237,8 @@ def contours(
         (nx,), (ny,) in Hertz radii.
     film
         H (nx, ny) in Hertz units.
+    scales
+        For SI units; None for Hertz units.
     outline
         Outline of the dry contact.
 

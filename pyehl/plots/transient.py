@@ -272,6 +272,8 @@ def roughness(
         (nx,), (ny,) in Hertz radii.
     heights
         RR or A_d = H_smooth - H, (nx, ny), in Hertz units.
+    scales
+        For SI units; None for Hertz units.
     top
         Maximum height of the scale, in Hertz units; 0: that of the field.
     name

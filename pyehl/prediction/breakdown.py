@@ -125,6 +125,7 @@ def of_model(model: Model, deformed: Sequence[Array], sustained: Sustained) -> B
     """Find where the film of a model breaks down.
 
     Two surfaces are in the positions of their common period, or without one in all relative ones.
+    `deformed` is the deformed roughness of each surface (nx, ny) [m].
     """
     tiles, semi_axes = [one.topography for one in model.surfaces], model.operating.semi_axes
     result = below_zero(tiles, deformed, semi_axes, sustained)

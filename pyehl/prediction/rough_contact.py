@@ -210,7 +210,10 @@ class RoughContact(ShearedContact):
         )
 
     def add_edge(self, total: Single, *edges: tuple[Array, Array]) -> None:
-        """Add the effect of the edge on the pressure (:meth:`Edge.at`), store its displacement."""
+        """Add the effect of the edge on the pressure, and store its displacement.
+
+        `edges`: results of :meth:`pyehl.prediction.moving_tile.Edge.at`.
+        """
         # a surface without long waves has none
         coefficients = np.zeros(max(result.size for result, _ in edges))
         self.moved[:] = 0.0

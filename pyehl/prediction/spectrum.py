@@ -159,7 +159,8 @@ def longer_waves(
 ) -> tuple[Spectrum, tuple[Indices, Indices]]:
     """Waves of a tile with |q| below a limit [1/a], on as few pixels as they need.
 
-    Also the rows and columns of the spectrum that remain.
+    Also the rows and columns of the spectrum that remain. `ellipticity`: semi-axis of the contact
+    across the motion over a.
     """
     axes = 1.0, ellipticity
     nx, ny = (

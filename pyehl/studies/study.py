@@ -314,7 +314,8 @@ def make(
     """Make a study.
 
     `zipped`: True, all keys vary together; else lists of the keys that do. `outputs` are the
-    results wanted in the table, none: all numbers. `origin` names the study file in messages.
+    results wanted in the table, none: all numbers and some texts. `origin` names the study file in
+    messages.
     InputError if nothing is varied, a key is varied twice or also set by an option, keys that vary
     together have different numbers of values, a value (or combination of such keys) is repeated,
     the run or an output does not exist, or there are too many cases.

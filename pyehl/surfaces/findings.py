@@ -88,7 +88,11 @@ MAX_LISTED = 3
 def stitching(
     z: Array, pixel: tuple[float, float], axis: int, corner: tuple[float, float]
 ) -> Finding | None:
-    """Find steps along a straight line across the map, or a quarter of it."""
+    """Find steps along a straight line across the map, or a quarter of it.
+
+    Map z (nx, ny), pixel size, and position of its `corner` on the map as read [m]; steps between
+    the lines that follow one another along `axis`. None if there are none.
+    """
     n = z.shape[1 - axis]
     parts = PARTS if n >= 16 * PARTS else 1
     steps, _ = line_steps(z, axis, parts)
@@ -142,7 +146,10 @@ def _one_side(ends: Sequence[float], name: str) -> str:
 
 
 def dust(z: Array, pixel: tuple[float, float], corner: tuple[float, float]) -> list[Finding]:
-    """Find specks of several pixels that stand out, and spikes of fewer pixels."""
+    """Find specks of several pixels that stand out, and spikes of fewer pixels.
+
+    Map z (nx, ny), pixel size, and position of its `corner` on the map as read [m].
+    """
     specks, spread = _specks(z)
     large, small = ([speck for speck in specks if speck.is_dust == yes] for yes in (True, False))
     return [

@@ -74,7 +74,10 @@ class Spectrum:
 
 
 def levelled(profile: Profile, detrend: str = "auto") -> Array:
-    """Return the heights [m] minus their mean, line or parabola."""
+    """Return the heights [m] minus their mean, line or parabola.
+
+    By `detrend`: 'none' or 'centre'; 'tilt' or 'auto'; 'curvature'.
+    """
     degree = {"none": 0, "centre": 0, "curvature": 2}.get(detrend, 1)
     x = np.linspace(-1.0, 1.0, profile.heights.size)
     rest = profile.heights - np.polyval(np.polyfit(x, profile.heights, degree), x)
@@ -84,7 +87,7 @@ def levelled(profile: Profile, detrend: str = "auto") -> Array:
 def fit(profile: Profile, detrend: str = "auto", *, ridges: bool = False) -> Spectrum:
     """Fit the spectrum of a profile, as that of an isotropic surface or of `ridges` across it.
 
-    InputError if the profile is flat or too short.
+    `detrend` as in `levelled`. InputError if the profile is flat or too short.
     """
     z = levelled(profile, detrend)
     n, rms = z.size, float(np.sqrt(np.mean(np.square(z))))

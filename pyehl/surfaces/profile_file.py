@@ -42,7 +42,7 @@ Read = tuple[Array, Array | float | None, tuple[float | None, float | None]]
 
 
 def read_columns(path: Path, lines: Sequence[str]) -> Read:
-    """Read columns of numbers under header lines."""
+    """Read columns of numbers under header lines; InputError if they are no profile."""
     comma = _decimal_comma(lines)
     rows = [row_of(line, comma=comma) for line in lines]
     sizes = [len(row) if row else 0 for row in rows]

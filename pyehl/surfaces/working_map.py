@@ -241,7 +241,10 @@ class WorkingMap:
         pixel: tuple[float, float] | None = None,
         note: str = "",
     ) -> None:
-        """Record a step and its result `heights`, on which the next step works."""
+        """Record a step and its result `heights`, on which the next step works.
+
+        `pixel` is its pixel size [m], None: as before; the other arguments as in :class:`Step`.
+        """
         before = self._last or areal.extent(self.z, self.pixel)
         # a step 'edges' that only notes the edges or will add images does not change the heights
         same = heights is self.z and name == "edges"

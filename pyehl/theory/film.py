@@ -119,7 +119,8 @@ def hamrock_dowson_soft(
 
     Hamrock & Dowson 1978, J. Lubr. Technol. 100, 236-245. h_min agrees with the regime formula of
     textbooks, 8.70 g_E^0.67 (1 - 0.85 exp(-0.31 k)) (U/W)^2, within 1.2 % at U = 1e-8. The
-    constants of h_c are quoted and were not checked against another source.
+    constants of h_c are quoted and were not checked against another source. `ellipticity` as in
+    `hamrock_dowson`.
     """
     side_c, side_min = math.exp(-0.28 * ellipticity), math.exp(-0.31 * ellipticity)
     h_c = 7.32 * (1 - 0.72 * side_c) * speed**0.64 * load_number**-0.22

@@ -43,7 +43,7 @@ SHORT = 16.0
 def at_inlet(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex:
     """Solve for mu/rho at INLET (m,) and refer it to X = -1 as a wave that does not leak [-].
 
-    Wavenumbers qx, qy (m,) [1/a], qx >= 0, not both 0.
+    Wavenumbers qx, qy (m,) [1/a], qx >= 0, not both 0; U = `velocity_ratio`.
     """
     h, last = SPACING, round((END - INLET) / SPACING)
     x = np.asarray(INLET + h * np.arange(round((START - INLET) / h), last + 1), dtype=np.float64)
@@ -78,7 +78,10 @@ def at_inlet(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex
 
 
 def wave_flattening(zone: Zone, qx: Array, qy: Array, slip: Array, x: Array) -> Complex:
-    """Matrices (m, n, n) of the flattening at nodes x (n,) by the pressure wave at these nodes."""
+    """Matrices (m, n, n) of the flattening at nodes x (n,) by the pressure wave at these nodes.
+
+    Waves qx, qy (m,) [1/a]; `slip` is k (U - 1) (m,) [1/a].
+    """
     h, n = SPACING, x.size
     more = round((EDGE - x[-1]) / h)
     far = h * np.arange(1, n + more)
@@ -106,7 +109,7 @@ def wave_flattening(zone: Zone, qx: Array, qy: Array, slip: Array, x: Array) -> 
 
 
 def convected_by(n: int, h: float, slip: Array) -> Complex:
-    """d/dX - i slip at n nodes (m, n, n), exact for a wave exp(i slip X)."""
+    """d/dX - i slip at n nodes `h` apart (m, n, n), exact for a wave exp(i slip X)."""
     i = np.arange(2, n - 1)
     difference = np.zeros((n, n))
     for step, weight in zip((-2, -1, 0, 1), (1.0, -6.0, 3.0, 2.0), strict=True):

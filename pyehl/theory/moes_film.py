@@ -37,8 +37,8 @@ def _asymptotes(moes_m: float, moes_l: float, shape: Ellipse) -> _Asymptotes:
 def regime(moes_m: float, moes_l: float, shape: Ellipse = CIRCLE) -> str:
     """Name the nearest asymptote of the formula, as 'elastic-piezoviscous'.
 
-    'rigid to elastic-...' where the two differ by a factor below `ALIKE`. InputError if M is not
-    positive or L is negative.
+    'rigid to elastic-...' where the two differ by a factor below `ALIKE`. M, L and `shape` as in
+    `nijenbanning_venner_moes`. InputError if M is not positive or L is negative.
     """
     a = _asymptotes(moes_m, moes_l, shape)
     isoviscous = max(a.rigid_iso, min(a.elastic_iso, 1.8 / shape.radius_ratio))
@@ -57,8 +57,8 @@ def nijenbanning_venner_moes(moes_m: float, moes_l: float, shape: Ellipse = CIRC
 
     Nijenbanning, Venner & Moes 1994, Wear 176, 217-229: joins the rigid-isoviscous, elastic-
     isoviscous, rigid-piezoviscous and elastic-piezoviscous asymptotes; validated for R_x <= R_y.
-    Divide by the density ratio at p_h for a compressible lubricant. InputError if M is not positive
-    or L is negative.
+    `shape`: the dry contact. Divide by the density ratio at p_h for a compressible lubricant.
+    InputError if M is not positive or L is negative.
     """
     rigid_iso, elastic_iso, rigid_piezo, elastic_piezo = _asymptotes(moes_m, moes_l, shape)
     flat = 1.8 / shape.radius_ratio
@@ -78,7 +78,7 @@ def inlet_viscosity_ratio(
     """Viscosity over that of (M, L) [-] at which the formula gives `film_ratio` times the film.
 
     Shear heating of the inlet enters in this form: the film is that of the warmer oil. M and L are
-    those of the isothermal contact; film_ratio > 0.
+    those of the isothermal contact, `shape` its dry contact; film_ratio > 0.
     """
     if film_ratio == 1.0:
         return 1.0

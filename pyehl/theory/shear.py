@@ -67,7 +67,7 @@ def flow_factors(
 def sliding_stress(law: str, exponent: float, sliding: ArrayLike) -> Array:
     """Stress over that of the law in films without a pressure gradient, for B of any shape [-].
 
-    NaN where the iteration fails.
+    `law` and `exponent` as in `flow_factors`. NaN where the iteration fails.
     """
     b = np.asarray(sliding, dtype=float)
     stress = np.empty(b.size)

@@ -29,8 +29,8 @@ CENTRAL, MINIMUM = (3.06, 0.58, 0.29), (3.34, 0.56, 0.25)
 def layer_reduction(ratio: float, exponent: float = EXPONENT) -> float:
     """h_c over the flooded one for `ratio` r = h_oil/(rho(p_h) h_flooded), h_oil the inlet layer.
 
-    r/(1 + r^gamma)^(1/gamma): Chevalier, Lubrecht, Cann, Colin & Dalmaz 1998, J. Tribol. 120,
-    126-133.
+    r/(1 + r^gamma)^(1/gamma), gamma = `exponent`: Chevalier, Lubrecht, Cann, Colin & Dalmaz 1998,
+    J. Tribol. 120, 126-133.
     """
     return float((1.0 + ratio**-exponent) ** (-1.0 / exponent))
 
@@ -46,7 +46,8 @@ def estimate(
     """Return the films [m] of a starved inlet, None of a flooded one.
 
     Either `position` [a] or `layer` [a^2/R] is given, the other is 0; `flooded` films h_c and h_min
-    [m], NaN where not known; `scale` a^2/R [m]; `density` at the Hertz pressure [-].
+    [m], NaN where not known; `scale` a^2/R [m]; `density` at the Hertz pressure over that at
+    ambient pressure [-]; `ellipticity` of the contact [-].
     """
     h_c, h_min = flooded
     if position > 0.0:

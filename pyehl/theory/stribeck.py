@@ -51,6 +51,9 @@ def relative_friction(theta: ArrayLike) -> Array:
 def in_range(
     moes_m: float, moes_l: float, wavelength: float, film_over_amplitude: float
 ) -> list[str]:
-    """Return what lies outside the range of the fit, in words; an empty list when nothing does."""
+    """Return what lies outside the range of the fit, in words; an empty list when nothing does.
+
+    Arguments as in `theta_2`.
+    """
     values = (moes_m, moes_l, wavelength, film_over_amplitude)
     return list(outside(dict(zip(RANGE, values, strict=True)), RANGE))

@@ -115,7 +115,10 @@ class LiftOff:
 
 
 def lift_off(speeds: Array, table: pd.DataFrame) -> LiftOff | None:
-    """Find the transition speed of a curve over speeds [m/s]; None where it is not on the curve."""
+    """Find the transition speed of a curve over speeds [m/s]; None where it is not on the curve.
+
+    `table` has a row for each speed, with load share, its error, Lambda and theta_2.
+    """
     order = np.argsort(speeds)
     speeds = speeds[order]
 

@@ -314,10 +314,10 @@ def line_pressure(
     """Pressure on LINES of film waves whose amplitude varies across the motion.
 
     In the units of a circle, for amplitudes (lines, ...) of free waves that roughness (kx, ky)
-    [1/a] causes. The sides of a narrow contact flatten a wave as long as its width more than the
-    middle does. The amplitude is expanded in waves across the motion, each with its own stiffness.
-    Beyond the contact it falls to zero; the values there have no physical meaning and
-    :class:`pyehl.prediction.moving_tile.Edge` removes them. No constant is fitted.
+    [1/a] causes at a velocity ratio U. The sides of a narrow contact flatten a wave as long as its
+    width more than the middle does. The amplitude is expanded in waves across the motion, each with
+    its own stiffness. Beyond the contact it falls to zero; the values there have no physical
+    meaning and :class:`pyehl.prediction.moving_tile.Edge` removes them. No constant is fitted.
     """
     here = free_stiffness(kx, ky, velocity_ratio)
     result = here * amplitudes
