@@ -12,8 +12,8 @@ module ehl_galerkin
    private
    public :: build_galerkin, coarsening_t, galerkin_product, product_work_t
 
-   !> Interpolation depends on the operator where conductance/mesh-size^2 in the neighbourhood is above this; elsewhere
-   !> the deflection, which is not part of the operator, matters and interpolation is bilinear
+   !> Interpolation depends on the operator where conductance/mesh-size^2 (the smaller one) in the neighbourhood is above this;
+   !> elsewhere the deflection, which is not part of the operator, matters and interpolation is bilinear
    real(dp), parameter :: dependent_from = 10.0_dp
 
    !> Contributions of the cells above a coarse row to the next row's couplings, shape (0:nx, ny)

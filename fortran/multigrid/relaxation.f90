@@ -18,12 +18,12 @@ module ehl_relaxation
    private
    public :: relax, usual_log_change
 
-   !> Maximum conductance/mesh-size^2 in the neighbourhood of a distributive node, for a Newtonian and a shear-thinning lubricant.
+   !> Maximum conductance/hy^2 in the neighbourhood of a distributive node, for a Newtonian and a shear-thinning lubricant.
    !> The conductance along Y counts: lines include the coupling along X, and only the coupling to other lines limits a change
    !> that is smooth along Y.
    real(dp), parameter :: switch = 0.1_dp, switch_thinning = 0.25_dp
    !> Relaxation factors of distributive changes, and of Gauss-Seidel changes where the wedge and the Poiseuille term are of
-   !> similar size; the latter tends to 1 where conductance/mesh-size^2 is well above `strong`
+   !> similar size; the latter tends to 1 where conductance/mesh-size^2 (the smaller mesh size) is well above `strong`
    real(dp), parameter :: omega_dipole = 0.7_dp, omega_line = 0.5_dp, strong = 10.0_dp
    !> The latter of soft contacts: where the viscosity hardly increases the two terms are similar in all of the contact, not only
    !> at its edge, and smooth changes overshoot (L = 0.5, M = 2000: 4 cycles, not converged in 30 with 0.5)

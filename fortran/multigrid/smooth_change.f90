@@ -9,10 +9,10 @@ module ehl_smooth_change
    private
    public :: filter_smooth_change, find_smoothing_weights
 
-   !> Conductance/mesh-size^2 over the squeeze term's factor at which the smoothing weight is 1/2. The deflection of a change that
-   !> is smooth over a length l changes the residual by about squeeze*l*2/pi^2; the change overshoots where the line
-   !> system includes less than half of that. The maximum conductance around the node counts, because in a valley narrower than
-   !> the mean below no change is smooth.
+   !> Conductance/mesh-size^2 (the smaller one) over the squeeze term's factor at which the smoothing weight is 1/2. The deflection
+   !> of a change that is smooth over a length l changes the residual by about squeeze*l*2/pi^2; the change overshoots where the
+   !> line system includes less than half of that. The maximum conductance around the node counts, because in a valley narrower
+   !> than the mean below no change is smooth.
    real(dp), parameter :: weak = 0.6_dp
    !> Neighbourhood of a node: this many columns, and one row, on each side
    integer, parameter :: around = 2

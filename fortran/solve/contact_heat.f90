@@ -38,7 +38,7 @@ contains
 
       step_heat = not_known
       if (mod(self%transient%step, interval(self)) > 0) return
-      ! without a stored field this cannot fail
+      ! the ratio is NaN without memory
       call add_heat(self, self%smooth%n, .false., found, status)
       step_heat = found%ratio()
    end procedure step_heat

@@ -54,7 +54,7 @@ contains
       end associate
    end subroutine iterate
 
-   !> Correct the error of the load by scaling the pressure, and evaluate the state again
+   !> Correct an error of the load above the tolerance by scaling the pressure, and evaluate the state again
    subroutine balance(self, hierarchy)
       class(iteration_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy

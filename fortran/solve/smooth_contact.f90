@@ -25,8 +25,8 @@ module ehl_smooth_contact
    !> Largest reduction per cycle in the error estimate of the load share: near the boundary film the edge of the solid contact
    !> needs several cycles to move by one node
    real(dp), parameter :: max_share_reduction = 0.99_dp
-   !> Change of the film per relative error of the load: the deflection by the Hertz pressure differs from its mean over the
-   !> contact by 1/5 at the centre and by 3/10 at the edge [a^2/R]
+   !> Change of the film per relative error of the load: the deflection by the Hertz pressure differs from its mean weighted by
+   !> that pressure by 1/5 at the centre and by 3/10 at the edge [a^2/R]
    real(dp), parameter :: film_per_load = 0.3_dp
    !> Residual above which a cycle before the first accepted one is rejected, and a guarded level at its cycle limit is not solved
    real(dp), parameter :: max_residual = 2.0_dp
@@ -145,8 +145,8 @@ module ehl_smooth_contact
 
    ! in smooth_restart.f90
    interface
-      !> Start the next passage with the layer that leaves the contact, unless the film is steady. Relative errors are those of the
-      !> first passage: the results of coarser grids are scaled.
+      !> Start the next passage with the layer that leaves the contact, replenished, unless the film is steady. Relative errors are
+      !> those of the first passage: the results of coarser grids are scaled.
       module subroutine next_passage(self, level, outcome)
          class(smooth_contact_t), intent(inout) :: self
          type(level_t), intent(inout) :: level
