@@ -119,7 +119,7 @@ def plot(
     """
     for name, value, known in (("units", units, UNITS), ("format", format, FORMATS)):
         if value not in known:
-            raise InputError(f"--{name} {value}: expected one of {', '.join(known)}")
+            raise InputError(f"{name} = {value!r}: expected one of {', '.join(known)}")
     check_kind(dpi, int, "dpi", "a whole number")
     if not 10 <= dpi <= 2400:
         raise InputError(f"dpi = {dpi}: 10 ... 2400 dots per inch were expected")

@@ -83,7 +83,7 @@ class Lubricant:
     Raises
     ------
     InputError
-        For an unknown law or a number out of range.
+        For an unknown law, or a viscosity, alpha, p0 or z out of range.
 
     Examples
     --------
@@ -151,7 +151,7 @@ class Lubricant:
     def from_name(cls, name: str, temperature: float = 40.0) -> Self:
         """Return an oil of :func:`pyehl.lubricants` at a temperature of the inlet [degC].
 
-        InputError for an unknown name, with the nearest known one.
+        InputError for an unknown name, with the known ones, or a temperature out of range.
         """
         group = text_of({"lubricant": {"name": name, "temperature": float(temperature)}})
         return cls.from_settings(values(resolve(group, "the lubricant")))
