@@ -12,7 +12,7 @@
 !> Transfer order and patch size follow from the accuracy required, relative to the maximum of W, for max W about max P as in a
 !> contact of the Hertz radius. Neglected corrections add up, in magnitude, to 2.5 times the accuracy on the finest grid, and
 !> their effect to 2^(-1/2) times that on each next coarser grid, where corrections cost less; their signs differ.
-!> Measurements: docs/design.md.
+!> Measurements: docs/evidence/deflection.
 ! Rows are passed by their first element
 ! allow(assumed-size)
 module ehl_mlmi

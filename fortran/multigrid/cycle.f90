@@ -16,7 +16,7 @@ module ehl_cycle
 
    !> Degrees of damping: maximum change of the logarithm of a node's conductance, relaxation factors of a sweep and of the
    !> coarse-grid correction. The first degree applies the full correction, which sets the mean film and the load.
-   !> Where the pressure spike is a few nodes wide (L = 25 on 513 x 513 nodes) F cycles make it oscillate (docs/design.md).
+   !> Where the pressure spike is a few nodes wide (L = 25 on 513 x 513 nodes) F cycles make it oscillate.
    integer, parameter :: max_damping = 4, usual_damping = 2
    real(dp), parameter :: damped_log_change(max_damping) = usual_log_change/[1.0_dp, 3.0_dp, 3.0_dp, 9.0_dp], &
                           damped_sweep(max_damping) = [0.6_dp, 0.6_dp, 0.3_dp, 0.15_dp], &

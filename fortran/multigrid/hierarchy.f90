@@ -22,7 +22,7 @@ module ehl_hierarchy
    private
    public :: hierarchy_t
 
-   !> Number of nodes of a grid from which on several threads are faster, measured on two shared cores; see docs/design.md
+   !> Number of nodes of a grid from which on several threads are faster, measured on two shared cores
    integer, parameter :: parallel_from = 60000
    !> Grids with hy/hx above this are coarsened along X alone if possible
    real(dp), parameter :: long_y = 3.0_dp

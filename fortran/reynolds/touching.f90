@@ -23,12 +23,13 @@ module ehl_touching
 
    !> Solid contact of one state; without a boundary film all values are 0
    type :: touching_t
-      !> iint P dX dY where the bodies touch, over that of the contact; area of solid contact [a^2]
+      !> iint P dX dY where the bodies touch, over that of the contact; area of solid contact [a^2], of a line contact per unit
+      !> length [a]
       real(dp) :: load_share = 0.0_dp, area = 0.0_dp
       !> Flow that the boundary film supplies at touching nodes, over the Couette flow through the line X = 0
       real(dp) :: supply = 0.0_dp
-      !> Load share where the solids yield, area where they yield [a^2], maximum depth of yielding [a^2/R], and the load share
-      !> where they yield with a film above the boundary film
+      !> Load share where the solids yield, area where they yield (unit as above), maximum depth of yielding [a^2/R], and the load
+      !> share where they yield with a film above the boundary film
       real(dp) :: hard_share = 0.0_dp, hard_area = 0.0_dp, depth = 0.0_dp, flowing_share = 0.0_dp
    contains
       procedure :: numbers

@@ -9,7 +9,8 @@ submodule (ehl_contact_run) ehl_contact_duty
    use ehl_wall_heat, only: heat_source
    implicit none (type, external)
 
-   !> Error of a quantity over its second difference, and decay of the error per step (docs/evidence/duty)
+   !> Error of a quantity over its second divided difference times the square of the step, and decay of the error per step
+   !> (docs/evidence/duty)
    real(dp), parameter :: difference_factor = 2.0_dp, error_decay = 0.8_dp
    !> Relative error of the friction over that of the pressure (docs/evidence/duty, random duties)
    real(dp), parameter :: pressure_factor = 2.0_dp
@@ -93,7 +94,7 @@ contains
       end associate
    end function remaining
 
-   !> Error of BDF2 where the squeeze changes a quantity abruptly: from its second difference
+   !> Error of BDF2 where the squeeze changes a quantity abruptly: from its second divided difference
    real(dp) function squeeze_error(self, column, now) result(error)
       class(contact_run_t), intent(in) :: self
       character(len=*), intent(in) :: column

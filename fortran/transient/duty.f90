@@ -36,7 +36,7 @@ module ehl_duty
       logical :: active = .false.
       !> Whether rough surfaces move throughout
       logical :: rough = .false.
-      !> Times [a/u], from 0, and values over those of the case, shape (times, quantities)
+      !> Times [a/u], from 0, and values over those of the case (velocities over its mean velocity), shape (times, quantities)
       real(dp), allocatable :: time(:), values(:, :)
       logical :: cubic = .false., periodic = .false.
       integer :: periods = 1

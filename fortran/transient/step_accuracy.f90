@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Tolerance of the time steps: their algebraic error changes mu_r/mu_s by less than a fraction of its grid error (docs/design.md).
+!> Tolerance of the time steps: their algebraic error changes mu_r/mu_s by less than a fraction of its grid error
+!> (docs/theory/time-steps.md).
 !> Both errors are estimated during the run from the Newtonian friction, which is most sensitive to the pressure, also with a
 !> shear-thinning law. Steps of more than one cycle show the change of mu_r/mu_s due to the residual after the first cycle. The grid
 !> error of mu_r/mu_s is assumed to be at least a fraction of its increase above 1, times the relative grid error of the smooth
@@ -47,7 +48,7 @@ module ehl_step_accuracy
 contains
 
    !> Rms residual at which the algebraic error of mu_r/mu_s is below the fraction `accuracy` of the discretisation error in all
-   !> cases: 8e-5 at h = 1/128 and a tenth, proportional to both (docs/design.md)
+   !> cases: 8e-5 at h = 1/128 and a tenth, proportional to both
    pure real(dp) function step_tolerance(mesh, accuracy)
       real(dp), intent(in) :: mesh, accuracy
       step_tolerance = 8.0e-4_dp*accuracy*(128.0_dp*mesh)
