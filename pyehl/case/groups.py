@@ -299,7 +299,8 @@ class Duty:
         1.0,
         "-",
         "[0.01, 4]",
-        "time step, relative to the time in which the faster surface moves one mesh size",
+        "time step, relative to the time in which the mean velocity, or a faster rough surface, "
+        "moves one mesh size",
     )
     target_error: float = real(
         0.0,
