@@ -29,6 +29,8 @@ module ehl_case_checks
    real(dp), parameter :: min_strain = 4.0e-7_dp
    !> Difference below which velocity ratios are equal
    real(dp), parameter :: same_velocity = 1.0e-9_dp
+   !> Rq over Ra of normally distributed heights; relative difference below which two heights are equal
+   real(dp), parameter :: rq_over_ra = sqrt(0.5_dp*acos(-1.0_dp)), same_height = 1.0e-6_dp
    character(len=*), parameter :: by_pyehl = "what 'pyehl check CASE.nml --resolved out.nml' writes, for ehl out.nml; or ", &
       si_units = "load, mean_velocity, reduced_modulus and radius or radius_x and radius_y", &
       of_line = "moes_m_line and moes_l_line, or load_per_length, mean_velocity, reduced_modulus and radius"
@@ -110,6 +112,12 @@ contains
          if (s%rq > 0.0_dp) key = group//".rq"
          if (s%ra > 0.0_dp) key = group//".ra"
          call need(key, group, [character(len=10) :: "kind", "rms_height"], "rms_height alone")
+         if (s%finish /= "none") call need(group//".finish", group, ["rolloff_wavenumber"], "the values of the finish alone")
+         if (.not. status%failed() .and. key /= group//".finish" .and. key /= "") then
+            if (abs(merge(rq_over_ra*s%ra, s%rq, s%ra > 0.0_dp) - s%rms_height) > same_height*s%rms_height) then
+               call source%contradict(key, group//".rms_height", "one of the two", status)
+            end if
+         end if
       end subroutine need_height
    end subroutine check_given
 

@@ -9,6 +9,7 @@ import pytest
 from test_malformed import FAULTS, MARK
 
 from pyehl import Case
+from pyehl.case.case import resolve
 from pyehl.case.key import Key, Value, to_text
 from pyehl.case.settings import KEYS, MACHINES
 from pyehl.errors import EhlError, InputError
@@ -114,3 +115,23 @@ def test_malformed_cases(name: str, text: str):
     with pytest.raises(InputError):
         Case.from_text(text.replace(MARK, ""))
     assert by_ehl(text.replace(MARK, "")), name
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        "kind = 'fractal' rms_height = 5e-8 ra = 4e-7",
+        "kind = 'fractal' rms_height = 5e-8 rq = 4e-7",
+        "kind = 'fractal' rms_height = 5e-8 finish = 'ground'",
+    ],
+)
+def test_heights_that_ehl_does_not_derive(keys: str):
+    """``ehl`` refuses a height beside a different Ra or Rq, and a finish without its spectrum."""
+    for group in ("surface", "second_surface"):
+        text = f"&contact load = 20.0 /\n&{group} {keys} /\n"
+        ehl, pyehl = by_ehl(text), by_pyehl(text)
+        assert ehl
+        assert pyehl or COMPLETED in ehl
+    # pyehl gives all values to the solver
+    text = "&contact load = 20.0 /\n&surface finish = 'ground' ra = 2e-8 /\n"
+    assert not by_ehl(resolve(text, "text"))
