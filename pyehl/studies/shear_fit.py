@@ -135,9 +135,9 @@ class Fit:
     error: Array  # their errors, zeros if none are given (n,)
     fitted: Array  # fitted values of `quantity` (n,)
     points: int  # nodes along X of the contacts
-    over: str = "contact.slide_to_roll"
-    quantity: str = "mu"
-    notes: tuple[str, ...] = ()
+    over: str = "contact.slide_to_roll"  # key that was varied
+    quantity: str = "mu"  # result that was measured
+    notes: tuple[str, ...] = ()  # remarks on the fit
 
     @property
     def residual_rms(self) -> float:

@@ -288,7 +288,10 @@ class Study:
 
 
 def contents(files: Collection[str]) -> dict[str, str]:
-    """Give the SHA-256 of files by their paths relative to their common folder."""
+    """Give the SHA-256 of files by their paths relative to their common folder.
+
+    InputError if one cannot be read.
+    """
     common = os.path.commonpath([os.path.dirname(name) for name in files]) if files else ""
     result = {}
     for name in files:

@@ -82,8 +82,8 @@ def from_settings(settings: Settings, operating: Contact, film: float) -> Topogr
     """Make or read the surface of a resolved case.
 
     `film` is the central film h_c [m], to which the amplitude of a harmonic pattern may be
-    relative. InputError if the surface is smooth or the map is not usable; OSError if it cannot be
-    opened.
+    relative. InputError if the surface is smooth or a single feature, or the map is not usable;
+    OSError if it cannot be opened.
     """
     return finished(whole(settings, operating, film), settings["surface"])
 
@@ -168,7 +168,10 @@ def _fractal(surface: Mapping[str, Any]) -> Topography:
 
 
 def scan_of(surface: Mapping[str, Any]) -> Scan:
-    """Read the map or profile of the group ``surface``; a length of 0 means that of the file."""
+    """Read the map or profile of the group ``surface``; a length of 0 means that of the file.
+
+    Exceptions as in `read_scan`, of a profile as in `scan_of_profile` and `read_profile`.
+    """
     s = Keys.of(surface)
     path, lengths = s.file, (s.length_x or None, s.length_y or None)
     if s.profile != "none":

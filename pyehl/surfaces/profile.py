@@ -39,11 +39,11 @@ class Spectrum:
     """Fit of a profile; the bands are confidence intervals of 95 %."""
 
     rms: float  # of the levelled profile [m]
-    rms_band: tuple[float, float]
-    hurst: float
+    rms_band: tuple[float, float]  # [m]
+    hurst: float  # Hurst exponent [-]
     hurst_band: tuple[float, float]
     rolloff: float  # wavenumber of the roll-off [rad/m]; 0: none within the profile
-    rolloff_band: tuple[float, float]
+    rolloff_band: tuple[float, float]  # [rad/m]
     length: float  # of the profile [m]
     shortest: float  # shortest wavelength fitted [m]
 

@@ -41,7 +41,10 @@ MARKED = ("aISO-1.0", "aBCR-1", "fileformat = bcr")
 
 
 def read_known_text(path: Path, encoding: str, channel: str) -> Found | None:
-    """Read a text of a known program; None if the program is unknown."""
+    """Read a text of a known program; None if the program is unknown.
+
+    InputError if it is a profile along a line, or cannot be read.
+    """
     first = [line for _, line in islice(lines_of(path, encoding), HEADER_LINES)]
     if not first:
         return None

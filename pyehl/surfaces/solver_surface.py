@@ -192,7 +192,8 @@ def gather(
     """Prepare both surfaces of a resolved case for the solver, by group.
 
     `heights` [m] by group replace the surfaces of the case; `tiles` are the tiles from which they
-    were made. InputError if a surface that they replace has no heights; else as `for_solver`.
+    were made. InputError if a surface that they replace is neither a map nor a fractal tile; else
+    as `for_solver`.
     """
     both: dict[str, SolverSurface] = {}
     for group in GROUPS:
@@ -257,7 +258,8 @@ def write_resolved(
 ) -> list[Path]:
     """Write a resolved case, and prepared surfaces as .npy beside it; returns all files.
 
-    InputError if a file exists already or is one of `inputs`; else as `for_solver`.
+    InputError if a file exists that this command did not write, or is one of `inputs`; else as
+    `for_solver`.
     """
     path = Path(path)
     tiles = {group: path.with_name(f"{path.stem}_{group}.npy") for group in GROUPS}
