@@ -334,7 +334,9 @@ DUTY_LISTS = (
 class Solver:
     """``&solver``: how the equations are solved."""
 
-    deflection: str = word("mlmi", "mlmi|fft", "evaluation of the elastic deflection")
+    deflection: str = word(
+        "mlmi", "mlmi|fft", "evaluation of the elastic deflection; default fft for a line"
+    )
     coarsening: str = word(
         "auto",
         "auto|classical|alcouffe",
@@ -346,7 +348,8 @@ class Solver:
     cycle: str = word(
         "auto",
         "auto|W|V|F",
-        "multigrid cycle; auto: F, the second one reduced, for a smooth contact, V for time steps",
+        "multigrid cycle; auto: F, the second one reduced, for a smooth contact, V for time steps "
+        "and for one row of nodes",
     )
     accuracy: float = real(
         0.1, "-", "[1e-6, 1]", "required algebraic error as a share of the discretisation error"

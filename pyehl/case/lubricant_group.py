@@ -85,7 +85,7 @@ class Lubricant:
     density_law: str = word(
         "dowson-higginson",
         "dowson-higginson|incompressible|murnaghan|tait",
-        "density under pressure",
+        "density under pressure; default tait with Doolittle's law",
     )
     murnaghan_modulus: float = real(
         0.0, "Pa", "0 or [1e8, 1e12]", "K00 of the bulk modulus K0 = K00 exp(-beta_K T), T in K"
@@ -191,7 +191,8 @@ class Lubricant:
         0.0,
         "1/K",
         "0 or [1e-3, 0.3]",
-        "-(d eta/dT)/eta; default from the kinematic viscosities, 0: not known",
+        "-(d eta/dT)/eta; default from the kinematic viscosities or the law of the oil, 0: not "
+        "known",
     )
     thermal_conductivity: float = real(
         0.14, "W/(m K)", "[0.01, 2]", "thermal conductivity of the oil, for frictional heating"
