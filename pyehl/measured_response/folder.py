@@ -119,8 +119,11 @@ def response(
     """
     inputs = () if isinstance(case, Case) else (case,)
     case = Case(case, *options)
-    refuse_duty(case.resolve())
-    refuse_inlet(case.resolve(), "waves are measured in a flooded contact", "a case without &inlet")
+    settings = case.resolve()
+    refuse_duty(settings)
+    refuse_inlet(settings, "waves are measured in a flooded contact", "a case without &inlet")
+    # refuses lines and rollers
+    OperatingPoint.from_settings(settings)
     if second:
         case = exchanged(case)
     tiers = TIERS[:-1] if quick else TIERS

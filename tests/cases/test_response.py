@@ -15,7 +15,7 @@ from second_solver import START, VELOCITY, X_MATTERS, SecondSolver, Wave, Z
 import pyehl
 from pyehl import cli, schema
 from pyehl.case import Case
-from pyehl.errors import EhlError
+from pyehl.errors import EhlError, InputError
 from pyehl.measured_response import measurement
 from pyehl.measured_response.folder import destination
 from pyehl.measured_response.superposition import SLOPE, WaveSet, superpose
@@ -141,6 +141,12 @@ def test_failed_run_is_named(tmp_path: Path):
     with pytest.raises(EhlError, match="tier 'long': the run ended too early"):
         measurement.measure(case, destination(tmp_path / "out"), tiers=[tier])
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("name", ["line", "roller"])
+def test_lines_and_rollers_are_refused(cases: Path, name: str):
+    with pytest.raises(InputError, match=r"\Acontact\.shape = '\w+': this is for point"):
+        pyehl.response(cases / f"{name}.nml")
 
 
 @pytest.mark.parametrize("tier", measurement.TIERS, ids=lambda tier: tier.name)
