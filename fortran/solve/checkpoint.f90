@@ -134,7 +134,7 @@ contains
    subroutine find_state(self, prefix, text, note, status)
       class(checkpoint_t), intent(inout) :: self
       character(len=*), intent(in) :: prefix, text
-      !> Message for the user: the step, and whether a damaged file was skipped
+      !> Message for the user: the step, and whether a file that is damaged or of another version was skipped
       character(len=:), allocatable, intent(out) :: note
       type(status_t), intent(inout) :: status
       integer :: k, state
@@ -164,7 +164,8 @@ contains
       end if
       if (status%failed()) return
       note = "resuming after step "//to_text(self%head%step)//" with the state in "//self%path
-      if (self%newest < missing) note = note//"; "//state_files(1)//" is damaged and was skipped"
+      if (self%newest == damaged) note = note//"; "//state_files(1)//" is damaged and was skipped"
+      if (self%newest == other_version) note = note//"; "//state_files(1)//" of another version of the program was skipped"
       self%newest = max(self%newest, missing)
       self%prefix = prefix
       self%frames = self%head%frames

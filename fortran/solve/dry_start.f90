@@ -38,7 +38,7 @@ contains
    end subroutine begin
 
    !> Correct the pressure at the ends of the bodies on a finer level: the coarse pressure decreases over wider cells, which would
-   !> give a negative film. Add the difference of the dry pressures of both grids there.
+   !> give a negative film. Add the difference of the dry pressures of both grids there, unless the ends are unloaded.
    subroutine correct_ends(self, coarse, level)
       class(dry_start_t), intent(inout) :: self
       type(grid_t), intent(in) :: coarse

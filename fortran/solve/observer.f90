@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Observer, called after every cycle of a steady contact and after every time step, which may stop the loop. A stopped loop
-!> continues at the next call.
+!> Observer, called after every cycle of a steady contact and after every time step except the last of a run, which may stop the
+!> loop. A stopped loop continues at the next call.
 module ehl_observer
    use ehl_contact_run, only: contact_run_t
    implicit none (type, external)

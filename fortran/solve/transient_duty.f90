@@ -6,7 +6,7 @@ submodule (ehl_transient_state) ehl_transient_duty
    use ehl_wedge, only: wedge_separate
    implicit none (type, external)
 
-   !> Length of the first step, at constant conditions, whose end is steady [a/u]
+   !> Length of the first step of a starved contact, at constant conditions, whose end is steady [a/u]
    real(dp), parameter :: steady_time = 16.0_dp
 
 contains

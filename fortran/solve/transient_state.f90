@@ -64,7 +64,8 @@ module ehl_transient_state
       real(dp), private :: inverse_speed = 0.0_dp
       !> Whether the flow is reversed in the present step, which is then solved as its mirror image
       logical, private :: reversed = .false.
-      !> Whether the present step is the first one, at constant conditions; whether that one has been made
+      !> Of a starved contact: whether the present step is the first one, at constant conditions; whether that one has been made
+      !> (true if the contact is flooded)
       logical :: settling = .false.
       logical, private :: settled = .false.
    contains

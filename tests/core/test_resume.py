@@ -164,7 +164,7 @@ def test_resume_into_another_folder_leaves_the_state(drive, unbroken, tmp_path: 
     assert before == after
 
 
-@pytest.mark.parametrize("damage", ["cut", "bit", "empty"])
+@pytest.mark.parametrize("damage", ["cut", "bit", "empty", "version"])
 def test_the_older_state_replaces_a_damaged_one(drive, unbroken, tmp_path: Path, damage: str):
     shutil.copy(unbroken["wave"] / "case.nml", tmp_path)
     stop_after_steps(drive, tmp_path, "ehl", 30)
@@ -175,12 +175,15 @@ def test_the_older_state_replaces_a_damaged_one(drive, unbroken, tmp_path: Path,
         data = data[: len(data) // 2]
     elif damage == "bit":
         data[len(data) // 3] ^= 4
+    elif damage == "version":
+        data[16:17] = b"9"
     else:
         data = bytearray()
     newest.write_bytes(data)
     done = drive("ehl", "--resume", "out", "--set", "time.steps=0")
     assert (done.returncode, done.stderr) == (0, "")
-    assert f"{newest.name} is damaged" in done.stdout
+    fault = "of another version" if damage == "version" else "is damaged"
+    assert f"{newest.name} {fault}" in done.stdout
     assert "after step 29" in done.stdout
     same(unbroken["wave"] / "out", tmp_path / "out")
 
