@@ -4,8 +4,8 @@ Film thickness against speed: formulas and solver
 =================================================
 
 A sweep runs one case with many values and returns one table. This one gives the central film
-thickness of Table 1 of Zhang et al. 2019 from published formulas, and from the solver at three
-speeds.
+thickness in the contact of Table 1 of Zhang et al. 2019 from published formulas, and from the
+solver at three speeds.
 """
 
 import matplotlib.pyplot as plt

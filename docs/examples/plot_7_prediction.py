@@ -28,7 +28,7 @@ figures["passage"]
 figures["roughness"]
 
 # %%
-# A single figure on your own axes:
+# A single figure, on new axes or on your own (``ax=``):
 
 ax = p.plot()
 plt.show()
