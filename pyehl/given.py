@@ -49,9 +49,12 @@ def check_kind(value: object, kinds: type | tuple[type, ...], name: str, expecte
 def positive(name: str, value: float, unit: str) -> float:
     """Return the value as a float.
 
-    InputError, with name and unit, if it is not positive and finite.
+    InputError, with name and unit, if it is no number, or not positive and finite.
     """
-    value = float(value)
+    try:
+        value = float(value)
+    except (TypeError, ValueError):
+        check_kind(value, (), name, f"a positive number [{unit}]")
     if not (math.isfinite(value) and value > 0.0):
         raise InputError(f"{name} must be a positive number [{unit}], not {value!r}")
     return value

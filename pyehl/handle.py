@@ -31,7 +31,7 @@ class Work(NamedTuple):
 
     Steps on the next coarser grid, for the grid error, count by their cost. `earliest` and
     `latest` are 0 before the first time step, and for a steady contact, whose number of cycles is
-    not known in advance.
+    not known in advance. Of a duty both are an estimate of all steps, in proportion to time.
 
     Attributes
     ----------

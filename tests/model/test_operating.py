@@ -123,6 +123,7 @@ def test_density():
     ("arguments", "word"),
     [
         ({"load": -1.0}, "load"),
+        ({"load": "heavy"}, "load = 'heavy': expected a positive number"),
         ({"radius": 0.0}, "radius"),
         ({"mean_velocity": math.nan}, "mean_velocity"),
         ({"reduced_modulus": math.inf}, "reduced_modulus"),
