@@ -32,9 +32,10 @@ class Finish(NamedTuple):
     lay_ratio: float
 
 
-# Ra within the ranges of ASME B46.1; spectra of ground surfaces decrease with the second power of
-# the wavenumber (Whitehouse & Archard 1970), of finer ones faster (Persson et al. 2005). Lengths
-# and lay are assumptions.
+# Ra within the ranges of ASME B46.1; profile spectra of ground surfaces decrease with the second
+# power of the wavenumber (Whitehouse & Archard 1970, Proc. R. Soc. A 316, 97), of superfinished and
+# polished ones faster (Persson et al. 2005, J. Phys. Condens. Matter 17, R1). The exponent of honed
+# ones, lengths and lay are assumptions.
 FINISHES = {
     "ground": Finish(0.4e-6, 0.5, 100.0e-6, 0.1),
     "honed": Finish(0.2e-6, 0.7, 60.0e-6, 5.0),

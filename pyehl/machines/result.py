@@ -229,7 +229,7 @@ def _of_pair(pair: GearPair, table: pd.DataFrame) -> dict[str, float]:
     """Return loss and mean friction of a pair, averaged over the passage of one base pitch.
 
     The loss of one pair of teeth along the whole path occurs once per base pitch (Ohlendorf 1958,
-    as in ISO/TR 14179-2).
+    as in ISO/TR 14179-2:2001).
     """
     places, pitch = table["s_m"].to_numpy(), pair.mesh.base_pitch
 
