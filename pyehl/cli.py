@@ -65,7 +65,7 @@ def make_parser(chosen: str) -> argparse.ArgumentParser:
 
 
 class _Terminal(logging.Handler):
-    """Prints messages of long steps without a progress bar on standard error."""
+    """Prints the log on standard error: long steps without a progress bar, and warnings."""
 
     def emit(self, record: logging.LogRecord) -> None:
         print(record.getMessage(), file=sys.stderr)

@@ -54,7 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl stress``; 0 done, 2 bad input."""
+    """Run ``pyehl stress``; 0 done, 1 a file cannot be read or written, 2 bad input."""
     data = stress(
         args.folder,
         body=args.body,

@@ -33,7 +33,7 @@ def thins(lubricant: Lubricant, operating: AnyContact) -> bool:
 class ShearedContact:
     """Points of a contact, with integrals of the shear stress and extremes over the positions."""
 
-    minimum_film: float  # minimum film; not positive: film breakdown
+    minimum_film: float  # minimum film [a^2/R]; not positive: film breakdown
     smooth: float  # sum of the stress of the smooth contact over the points, as `stress`
     points: int  # number of points within the contact
     area: float  # area per point [m^2]
@@ -110,7 +110,23 @@ class ShearedContact:
 
 
 class HertzContact(ShearedContact):
-    """Pixels of the Hertz circle with a semi-elliptical pressure and a uniform film."""
+    """Pixels of the Hertz circle with a semi-elliptical pressure and a uniform film.
+
+    Parameters
+    ----------
+    pressure
+        Pressure change by the roughness, on a periodic tile (nx, ny) [p_h].
+    deformed
+        Deformed roughness on that tile [a^2/R], peaks positive.
+    film
+        Film of the smooth contact [a^2/R].
+    pixel
+        Sizes of a pixel along x and y [a].
+    operating, lubricant
+        Operating point and lubricant.
+    load_balance
+        Whether the semi-ellipse is that of the load that the roughness leaves, not of the whole.
+    """
 
     def __init__(
         self,
@@ -145,8 +161,8 @@ class HertzContact(ShearedContact):
     def friction(self, position: tuple[float, float]) -> float:
         """Integral of the shear stress over that of the smooth contact [-].
 
-        `position` is the shift of the tile in whole pixels. NaN where the film ends, or the
-        roughness alone carries the load that is to be balanced.
+        `position` is the shift of the tile in whole pixels. NaN where the film ends, or with
+        `load_balance` the roughness alone sustains the load.
         """
         pixels = [int(number) for number in position]
         moved = [np.roll(v, pixels, (0, 1)) for v in (self.pressure, self.deformed)]

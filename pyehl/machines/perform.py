@@ -49,6 +49,17 @@ AnyCase = str | os.PathLike[str] | EllipsisType
 class Prepared:
     """A machine element with its contacts, before any of them is solved.
 
+    Parameters
+    ----------
+    path
+        A file that describes it, or an ellipsis for the options alone.
+    options
+        Values that replace those of the file.
+    kinds
+        Groups of which the file must have one.
+    run
+        One of `RUNS`.
+
     Attributes
     ----------
     run
@@ -134,7 +145,34 @@ def perform(
 ) -> tuple[MachineResult, Outcome]:
     """Run the missing contacts of a machine element, and write its folder.
 
-    InputError if the folder has another study or other files; FileError if it cannot be written.
+    Parameters
+    ----------
+    todo
+        The machine element.
+    folder
+        Folder of its result; None: nothing is kept on disk.
+    command
+        'bearing' or 'gear', the kind of the folder.
+    inputs
+        Files that must not be replaced.
+    force
+        Accept other files in the folder; they stay.
+    watcher
+        Receives the progress.
+    **execution
+        As in `pyehl.studies.sweep.gather`.
+
+    Returns
+    -------
+    MachineResult, Outcome
+        The result, and how the study of its contacts ended.
+
+    Raises
+    ------
+    InputError
+        If the folder has another study or other files.
+    FileError
+        If it cannot be written.
     """
     outcome = Outcome({})
     files: tuple[str, ...] = FILES

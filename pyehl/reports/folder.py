@@ -94,6 +94,8 @@ def report(
         If it is not a result folder, another file is in the way, or no browser is installed.
     FileError
         If a file cannot be read or written.
+    EhlError
+        If the browser does not print.
 
     Examples
     --------
