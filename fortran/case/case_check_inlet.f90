@@ -33,8 +33,10 @@ contains
 
       key = source%first_given("inlet", [character(len=14) :: "position", "position_hertz", "film", "film_hertz"])
       associate (inlet => input%inlet)
-         if (.not. input%contact%si .and. max(inlet%position, inlet%film) > 0.0_dp) call source%refuse(key, &
-            key//" in metres with Moes numbers", key//"_hertz, in a or a^2/R", status)
+         if (.not. input%contact%si .and. max(inlet%position, inlet%film) > 0.0_dp) then
+            key = merge("inlet.position", "inlet.film    ", inlet%position > 0.0_dp)
+            call source%refuse(key, trim(key)//" in metres with Moes numbers", trim(key)//"_hertz, in a or a^2/R", status)
+         end if
          if (inlet%position_hertz > 0.0_dp .and. inlet%film_hertz > 0.0_dp) then
             call source%refuse(key, "inlet.position with inlet.film", "one of them: the oil begins where the layer fills the gap", &
                                status)

@@ -5,7 +5,7 @@ module ehl_case_law
    use ehl_case, only: lubricant_case_t
    use ehl_dicke, only: new_dicke
    use ehl_doolittle, only: new_doolittle
-   use ehl_heat, only: zero_celsius, sheet_density
+   use ehl_heat, only: density_temperature, zero_celsius
    use ehl_kinds, only: dp
    use ehl_lubricant, only: density_constant, density_dowson_higginson, lubricant_t, new_lubricant, viscosity_barus, &
                             viscosity_roelands
@@ -55,7 +55,7 @@ contains
       real(dp) :: expansion
 
       ! relative to the density at the inlet
-      expansion = l%thermal_expansion/(1.0_dp - l%thermal_expansion*(l%temperature - sheet_density))
+      expansion = l%thermal_expansion/(1.0_dp - l%thermal_expansion*(l%temperature - density_temperature))
       lubricant = new_lubricant(merge(viscosity_barus, viscosity_roelands, l%viscosity_law == "barus"), &
                                 merge(density_constant, density_dowson_higginson, l%density_law == "incompressible"), &
                                 alpha_bar, hertz_pressure, l%roelands_z, l%roelands_p0, l%temperature_viscosity, expansion, &
@@ -136,9 +136,12 @@ contains
       type(lubricant_case_t), intent(in) :: l
       type(isotherm_t), intent(in) :: isotherm
       type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: place
 
       if (abs(isotherm%temperature - l%temperature - zero_celsius) <= 0.01_dp) return
-      call status%fail(ehl_bad_input, trim(l%table)//": error: the table has the single temperature "// &
+      place = trim(l%table)
+      if (place == "") place = "lubricant.table_temperature"
+      call status%fail(ehl_bad_input, place//": error: the table has the single temperature "// &
                        to_text(isotherm%temperature - zero_celsius)//" degC, and lubricant.temperature = "// &
                        to_text(l%temperature)//newline//"expected: that temperature, or a table of two or more")
    end subroutine check_single

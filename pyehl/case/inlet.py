@@ -33,7 +33,8 @@ def check(draft: Draft) -> None:
     s, inlet = draft.settings, draft.settings.inlet
     key = draft.first_given(NAMES)
     if not s.contact.si and max(inlet.position, inlet.film) > 0.0:
-        draft.refuse(key, f"{key} in metres with Moes numbers", f"{key}_hertz, in a or a^2/R")
+        name = "inlet.position" if inlet.position > 0.0 else "inlet.film"
+        draft.refuse(name, f"{name} in metres with Moes numbers", f"{name}_hertz, in a or a^2/R")
     position, film = inlet.position_hertz, inlet.film_hertz
     if position > 0.0 and film > 0.0:
         what = "inlet.position with inlet.film"

@@ -208,7 +208,8 @@ def test_ehl_reads_what_pyehl_resolves(tmp_path, ehl):
     ("contact", "words"),
     [
         ({"length": None}, "without contact.length"),
-        ({"load_per_length": 1e5}, "load_per_length"),
+        ({"load_per_length": 1e5}, "contact.load_per_length with contact.shape = 'roller'"),
+        ({"moes_m_line": 9.0}, "contact.moes_m_line with contact.shape = 'roller'"),
         ({"profile": "crown"}, "without contact.crown_radius"),
         ({"crown_radius": 1.0}, "contact.crown_radius with contact.profile = 'none'"),
         ({"profile": "chamfer", "chamfer_length": 6e-3, "chamfer_drop": 1e-5}, "more than half"),

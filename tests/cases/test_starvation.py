@@ -127,6 +127,11 @@ SI = {"load": 20.0, "radius": 0.01, "mean_velocity": 1.0}
         ({"contact": SI, "inlet": {"passages": 2}}, "inlet.passages", "layer"),
         ({"contact": CIRCLE, "inlet": {"film": 1e-7}}, "inlet.film", "film_hertz"),
         (
+            {"contact": CIRCLE, "inlet": {"position_hertz": 2.0, "film": 1e-7}},
+            "inlet.film in metres",
+            "expected: inlet.film_hertz",
+        ),
+        (
             {"contact": SI, "inlet": {"film": 1e-7}, "grid": {"border": "flooded"}},
             "grid.border",
             "'zero'",
