@@ -43,6 +43,8 @@ contains
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: moes, si, expected
+      character(len=2), parameter :: endings(2) = ["  ", "_2"]
+      integer :: body
 
       call check_line(source, input, status)
       call check_roller(source, input, status)
@@ -75,6 +77,11 @@ contains
       call need(if_given("lubricant.table"), "lubricant", [character(len=17) :: "viscosity_law", "table_temperature", &
                                                            "table_pressure", "table_viscosity"], "another law")
       call need(if_given("duty.file"), "duty", ["time"], "the values of the table")
+      do body = 1, 2
+         if (input%contact%profiles(body)%kind /= "file") cycle
+         call need(if_given("contact.profile_file"//trim(endings(body))), "contact", &
+                   [character(len=14) :: "profile_y"//endings(body), "profile_drop"//endings(body)], "the values of the table")
+      end do
       call need_height("surface", input%surface)
       call need_height("second_surface", input%second_surface)
 
@@ -88,14 +95,16 @@ contains
          if (source%given(name)) key = name
       end function if_given
 
-      !> Refuse a key that the solver does not use without the values that pyehl derives from it
+      !> Refuse a key that the solver does not use without the values that pyehl derives from it. Those of a resolved case do not
+      !> follow from an option.
       subroutine need(key, group, keys, or)
          character(len=*), intent(in) :: key, group, keys(:), or
          integer :: k
 
          if (key == "") return
          do k = 1, size(keys)
-            if (source%given(group//"."//keys(k))) cycle
+            if (source%given(group//"."//keys(k)) .and. .not. (source%by_option(key) .and. &
+                                                               source%derived(group//"."//keys(k)))) cycle
             call source%refuse(key, key//" without "//group//"."//trim(keys(k))//", which pyehl derives from it", by_pyehl//or, &
                                status)
             return

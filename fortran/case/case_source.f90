@@ -18,6 +18,8 @@ module ehl_case_source
    contains
       procedure :: find
       procedure :: given
+      procedure :: by_option
+      procedure :: derived
       procedure :: first_given
       procedure :: refuse
       procedure :: contradict
@@ -42,6 +44,28 @@ contains
       character(len=*), intent(in) :: name
       given = self%find(trim(name)) > 0
    end function given
+
+   !> Whether group.key was given by an option
+   pure logical function by_option(self, name)
+      class(case_source_t), intent(in) :: self
+      character(len=*), intent(in) :: name
+      integer :: k
+
+      k = self%find(trim(name))
+      by_option = .false.
+      if (k > 0) by_option = allocated(self%pieces(k)%option)
+   end function by_option
+
+   !> Whether the text of a resolved case has a value of group.key that pyehl derived: it is marked, or a list
+   pure logical function derived(self, name)
+      class(case_source_t), intent(in) :: self
+      character(len=*), intent(in) :: name
+      integer :: k
+
+      k = self%find(trim(name))
+      derived = .false.
+      if (k > 0) derived = .not. allocated(self%pieces(k)%option) .and. (self%pieces(k)%marked .or. self%pieces(k)%values > 1)
+   end function derived
 
    !> First given key of a group, or of some keys of it; '' if none is given
    pure function first_given(self, group, keys) result(name)
@@ -81,13 +105,11 @@ contains
    end subroutine refuse
 
    !> Refuse two keys that exclude each other, at the later one
-   subroutine contradict(self, one, other, expected, status, why)
+   subroutine contradict(self, one, other, expected, status)
       class(case_source_t), intent(in) :: self
       !> group.key of both
       character(len=*), intent(in) :: one, other, expected
       type(status_t), intent(inout) :: status
-      !> Contradictory values
-      character(len=*), intent(in), optional :: why
       character(len=:), allocatable :: what
 
       if (self%find(trim(one)) < self%find(trim(other))) then
@@ -95,7 +117,6 @@ contains
       else
          what = trim(one)//" contradicts "//trim(other)
       end if
-      if (present(why)) what = what//": "//why
       call self%refuse(what(:index(what, " ") - 1), what, expected, status)
    end subroutine contradict
 

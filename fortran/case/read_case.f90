@@ -20,12 +20,15 @@ module ehl_read_case
 
    !> Maximum size of a case file [bytes]
    integer, parameter :: max_file_size = 1000000
-   !> Keys that only pyehl derives, from an oil, a data sheet, two bodies or a finish
-   character(len=name_length), parameter :: keys_by_pyehl(*) = [character(len=name_length) :: "radius_x", "radius_y", &
+   !> Keys that pyehl derives, from two bodies, an oil, a data sheet, a finish, a roughness parameter or a file, and their groups
+   character(len=name_length), parameter :: keys_by_pyehl(*) = [character(len=name_length) :: "radius", "radius_x", "radius_y", &
       "reduced_modulus", "viscosity", "pressure_viscosity", "temperature_viscosity", "viscosity_law", "inlet_law", &
-      "alpha_origin", "kind", "table_temperature", "table_pressure", "table_viscosity", &
+      "alpha_origin", "kind", "rms_height", "table_temperature", "table_pressure", "table_viscosity", &
       "profile_y", "profile_drop", "profile_y_2", "profile_drop_2"], &
       groups_by_pyehl(*) = [character(len=name_length) :: "contact", "lubricant", "surface", "second_surface"]
+   !> Keys from which pyehl derives others of the same group; those of contact follow from &bodies
+   character(len=name_length), parameter :: source_keys(*) = [character(len=name_length) :: "name", "table", &
+      "kinematic_viscosity_40", "finish", "ra", "rq"]
    !> Prefix of an option from the command line
    character(len=*), parameter :: option_prefix = "--set "
 
@@ -122,7 +125,7 @@ contains
    end function option_piece
 
    !> Drop marked values that equal those derived from the others, so that an option has the same effect on a resolved case as on
-   !> the original. A changed value, or one that only pyehl derives, counts as given.
+   !> the original. A changed value, or one that pyehl derived, counts as given; an option that would change the latter is refused.
    subroutine drop_marked(source)
       type(case_source_t), intent(inout) :: source
       type(case_source_t) :: given
@@ -143,7 +146,8 @@ contains
                    any(groups_by_pyehl == source%pieces(k)%group))) cycle
          if (source%pieces(k)%group /= group) call write_group(trim(source%pieces(k)%group), default_case, keys, values)
          group = source%pieces(k)%group
-         follows(k) = values(findloc(keys, source%pieces(k)%key, dim=1)) == source%pieces(k)%value
+         follows(k) = values(findloc(keys, source%pieces(k)%key, dim=1)) == source%pieces(k)%value .and. &
+                      .not. has_source(source%pieces(k)%group)
       end do
       given = source
       call keep_pieces(given%pieces, .not. follows)
@@ -158,5 +162,22 @@ contains
          source%pieces(k)%marked = follows(k)
       end do
       call keep_pieces(source%pieces, .not. follows)
+
+   contains
+
+      !> Whether the text gives a key from which pyehl derives values of a group, which may equal their defaults
+      logical function has_source(of)
+         character(len=*), intent(in) :: of
+         integer :: i
+
+         has_source = .false.
+         do i = 1, size(source%pieces)
+            associate (piece => source%pieces(i))
+               if (piece%marked) cycle
+               has_source = has_source .or. (of == "contact" .and. piece%group == "bodies") .or. &
+                            (of == piece%group .and. any(source_keys == piece%key))
+            end associate
+         end do
+      end function has_source
    end subroutine drop_marked
 end module ehl_read_case

@@ -342,6 +342,44 @@ def test_overrides_of_a_written_case_are_whole(drive, tmp_path: Path):
     assert texts[0] != Case(tmp_path / "first" / "case.nml").text
 
 
+@pytest.mark.parametrize(
+    ("text", "key", "value"),
+    [
+        ("&surface kind = 'fractal' rq = 5e-8 /", "surface.rms_height", 5e-8),
+        (
+            "&contact shape = 'line' load_per_length = 1e5 /\n&bodies radius_x1 = 0.018 /",
+            "contact.radius",
+            0.018,
+        ),
+    ],
+)
+def test_derived_values_may_equal_their_defaults(drive, tmp_path: Path, text, key, value):
+    case = Case.from_text(f"{text}\n&grid points = 65 /\n&time steps = 1 /\n")
+    group, name = key.split(".")
+    assert case.resolve()[group][name] == value
+    (tmp_path / "case.nml").write_text(case.text)
+    # 1: the friction of a rough contact has not settled
+    assert drive("ehl", "case.nml", "-o", "out").returncode in (0, 1)
+    assert Case(tmp_path / "out" / "case.nml").text == case.text
+
+
+@pytest.mark.parametrize(
+    ("text", "option", "derived"),
+    [
+        ("&surface kind = 'fractal' rq = 6e-8 /", "surface.rq=1e-7", "surface.rms_height"),
+        ("&surface finish = 'ground' /", "surface.finish='honed'", "surface.kind"),
+        ("&lubricant name = 'n100' /", "lubricant.name='n7'", "lubricant.viscosity"),
+    ],
+)
+def test_ehl_does_not_keep_values_that_an_option_changes(drive, tmp_path, text, option, derived):
+    """The values of a resolved case that pyehl derived do not follow an option of ehl."""
+    (tmp_path / "case.nml").write_text(Case.from_text(f"{text}\n&grid points = 65 /\n").text)
+    run = drive("ehl", "case.nml", "-o", "out", "--set", option)
+    assert run.returncode == 2
+    assert f"without {derived}, which pyehl derives from it" in run.stderr
+    assert not (tmp_path / "out").exists()
+
+
 def test_version_is_one_line(capsys):
     assert cli.main(["--version"]) == 0
     printed = capsys.readouterr().out
