@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> SIGINT and SIGTERM stop the program after the present cycle
+!> SIGINT and SIGTERM stop the program after the present cycle or time step
 module ehl_signals
    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int
    implicit none (type, external)
@@ -34,7 +34,7 @@ contains
       stop_requested = received
    end function stop_requested
 
-   !> Signal handler; a second signal ends the program at once
+   !> Signal handler; the same signal a second time ends the program at once
    subroutine note_signal(number) bind(c)
       integer(c_int), value :: number
       type(c_funptr) :: previous

@@ -2,10 +2,11 @@
 !> The folder of a result: which folder is accepted, and how the result is put in place.
 !>
 !> A folder is accepted for a result of one kind if it is empty, or contains only an earlier result of this kind. A result
-!> lists its kind and its files in summary.json. Pictures and exports of a result, which contain a mark, are replaced with
-!> it. Otherwise the folder is refused; with `force` other files are kept, if the result needs none of their names.
+!> lists its kind and its files in summary.json. Pictures, exports and reports of it, which contain a mark, are removed with it
+!> when it is replaced. Otherwise the folder is refused; with `force` other files are kept, if the result needs none of their names.
 !>
-!> The folder always contains a complete result: the new one is written beside it and then exchanged with the earlier one.
+!> The new result is written beside the folder and then exchanged with the earlier one, in one step if the file system supports
+!> that: the folder then contains a complete result at any time.
 module ehl_destination
    use, intrinsic :: iso_c_binding, only: c_ptr
    use ehl_earlier_result, only: command_of, found_t, is_replaceable, read_result, summary

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Lock of a folder while a run writes into it: a file DIR.lock beside it, with process and machine. The lock of
+!> Lock of a folder while a run writes into it: a file DIR.lock beside it, with process, its start and machine. The lock of
 !> a process that has ended is taken over, or removed with the next result that is written beside it.
 module ehl_folder_lock
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
@@ -164,7 +164,7 @@ contains
       if (buffer(1) /= c_null_char) name = fortran_text(buffer)
    end function machine
 
-   !> Start time of a process in the units of Linux; '0' if it is not known
+   !> Start time of a process after that of the machine [clock ticks]; '0' if it is not known
    function start_of(process) result(start)
       character(len=*), intent(in) :: process
       character(len=:), allocatable :: start

@@ -9,7 +9,7 @@ module ehl_lock
    public :: lock_t, lock, unlock
 
    !> A mutex, initially unlocked: all zero in the GNU and musl libraries. It is larger than in any of them
-   !> (40 bytes). It must be a module variable with the attribute target.
+   !> (at most 48 bytes). It must be a module variable with the attribute target.
    type, bind(c) :: lock_t
       integer(c_int64_t) :: mutex(16) = 0
    end type lock_t

@@ -35,7 +35,8 @@ contains
       text = amount_buffer(bytes)
    end function amount
 
-   !> Free bytes of the machine, of the control groups of the process and of its address space; huge if none is reported
+   !> Minimum of the free bytes of the machine, of the control groups of the process and of its address space; huge if none is
+   !> reported
    real(dp) function free_bytes(root) result(free)
       !> Folder that contains /proc and /sys: empty except in tests
       character(len=*), intent(in) :: root

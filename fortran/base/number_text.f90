@@ -82,7 +82,7 @@ contains
       end if
    end function fixed_buffer
 
-   !> A number to n digits
+   !> A number to n significant digits, or to a whole number if that has more
    pure function rounded_buffer(x, n) result(text)
       real(dp), intent(in) :: x
       integer, intent(in) :: n

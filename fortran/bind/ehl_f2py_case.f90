@@ -22,7 +22,8 @@ module ehl_f2py_case
 
 contains
 
-   !> Hertz pressure [Pa] and radius [m], Moes numbers, M of the round contact, half lengths of the contact [a]
+   !> Hertz pressure [Pa] and radius [m], Moes numbers, M of the round contact, half lengths of the contact [a], whether
+   !> it is symmetric in Y
    subroutine operating(line, roller, n_roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, &
                         viscosity, alpha, moes_m, moes_l, hertz_pressure, hertz_radius, m, l, round_m, reach, even)
       integer(c_int), intent(in) :: line, si, n_roller

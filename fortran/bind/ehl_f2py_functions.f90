@@ -130,7 +130,8 @@ contains
       compiler_text = build_text()
    end subroutine about
 
-   !> Elastic deflection w under the pressure p with an engine, and mean seconds per application
+   !> Elastic deflection w of a round contact under the pressure p with an engine, mean seconds per application, and bytes of its
+   !> arrays
    subroutine deflection(engine, nx, ny, p, w, hx, hy, mirror, accuracy, threads, repeats, &
                          seconds, bytes, stat, message)
       character(len=*), intent(in) :: engine
@@ -164,10 +165,10 @@ contains
       call reply(status, stat, message)
    end subroutine deflection
 
-   !> Thermal over isothermal friction (NaN: not known), and maximum temperature rises of film and walls [K], for the contact of a
-   !> case with pressure and film p, h(nx, ny), the first node at (x0, y0); mirror: rows with Y >= 0 only; touching: 1 at solid
-   !> contact. Also whether heating is significant (counts), the kind of the coefficient of friction (ehl_reason), and the estimated
-   !> temperature rise [K].
+   !> Thermal over isothermal friction (NaN: not known; 1 without heating), and maximum temperature rises of film and walls [K],
+   !> for the contact of a case with pressure and film p, h(nx, ny), the first node at (x0, y0); mirror: rows with Y >= 0 only;
+   !> touching: 1 at solid contact. Also whether heating is computed (counts), the kind of the coefficient of friction (ehl_reason),
+   !> and the estimated temperature rise [K].
    subroutine frictional_heat(text, nx, ny, p, h, touching, x0, y0, hx, hy, mirror, counts, ratio, rises, reason, estimate, &
                               stat, message)
       character(len=*), intent(in) :: text

@@ -28,7 +28,8 @@ contains
       call reply(status, stat, message)
    end subroutine take_prediction
 
-   !> Positions of the fronts of n surfaces [a] at which the predicted start needs the pressure of the roughness; 0: not needed
+   !> Positions of the fronts of n surfaces [a] at which the predicted start needs the pressure of the roughness; n = 0: not
+   !> needed
    subroutine start_fronts(handle, fronts, n, stat, message)
       integer(c_int), intent(in) :: handle
       real(c_double), intent(out) :: fronts(4, 2)

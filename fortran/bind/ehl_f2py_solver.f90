@@ -1,9 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Interface to the solvers for Python, which identifies them by handles.
 !>
-!> The modules for Python use the subset of Fortran that f2py reads. They do no arithmetic: every routine passes its arguments on,
-!> and returns a status and a message. Only long routines release Python's lock (threadsafe). They must not call functions that
-!> return an allocatable text, whose length gfortran keeps in static memory.
+!> The modules for Python use the subset of Fortran that f2py reads. Their routines pass their arguments on, and return a status and
+!> a message if they can fail. Only long routines release Python's lock (threadsafe). These must not call functions that return an
+!> allocatable text, whose length gfortran keeps in static memory.
 module ehl_f2py_solver
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: case_t

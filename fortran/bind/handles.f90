@@ -3,7 +3,6 @@
 module ehl_handles
    use, intrinsic :: iso_c_binding, only: c_int
    use ehl_case, only: case_t
-   use ehl_clock, only: clock_t, start_clock
    use ehl_checkpoint_folder, only: checkpoint_folder_t
    use ehl_lock, only: lock, lock_t, unlock
    use ehl_solver, only: solver_t
@@ -13,12 +12,11 @@ module ehl_handles
    private
    public :: run_t, new_handle, drop_handle, run_of, reply, put_text, fitted
 
-   !> A run: resolved input, solver, states on disk, time since it was opened
+   !> A run: resolved input, solver, states on disk
    type :: run_t
       type(case_t) :: input
       type(solver_t) :: solver
       type(checkpoint_folder_t) :: checkpoints
-      type(clock_t) :: clock
    end type run_t
 
    !> An entry of the table
@@ -49,7 +47,6 @@ contains
          if (associated(table(k)%run)) cycle
          allocate (run, stat=stat)
          if (stat /= 0) exit
-         run%clock = start_clock()
          table(k)%run => run
          table(k)%generation = table(k)%generation + 1
          handle = places*table(k)%generation + k

@@ -15,7 +15,8 @@ module ehl_case
    !> Maximum length of a file name
    integer, parameter :: path_length = 1024
 
-   ! pyehl/case gives the units and meanings of the keys, ehl_case_ranges their ranges. A zero allowed there means "not given".
+   ! pyehl/case gives the units and meanings of the keys, ehl_case_ranges their ranges. For some keys 0 means
+   ! "not given".
 
    !> &contact: the operating point, in Moes numbers or SI units
    type :: contact_case_t
@@ -29,9 +30,9 @@ module ehl_case
       real(dp) :: load = 600.0_dp
       real(dp) :: load_per_length = 2.0e5_dp
       real(dp) :: mean_velocity = 0.84_dp
-      !> Radius of a round contact
+      !> Radius of a round contact, of a line or of a roller
       real(dp) :: radius = 0.018_dp
-      !> Whether the case was given by `radius`. Not a key; set by the reader.
+      !> Whether `radius` applies, not radius_x and radius_y. Not a key; set by the reader.
       logical :: round = .true.
       !> Set by the reader from `radius` if not given
       real(dp) :: radius_x = 0.0_dp, radius_y = 0.0_dp
@@ -49,7 +50,7 @@ module ehl_case
       real(dp) :: thermal_conductivity = 46.0_dp, thermal_diffusivity = 1.25e-5_dp
       !> Body 2; 0: as body 1
       real(dp) :: thermal_conductivity_2 = 0.0_dp, thermal_diffusivity_2 = 0.0_dp
-      !> Roller: length, misalignment, profiles of both bodies, and files of their tables, whose paths the reader makes absolute
+      !> Roller: length, misalignment, profiles of both bodies, and files of their tables, which pyehl reads, with absolute paths
       real(dp) :: length = 0.0_dp, misalignment = 0.0_dp
       type(body_profile_t) :: profiles(2)
       character(len=path_length) :: profile_files(2) = ""
@@ -76,7 +77,7 @@ module ehl_case
    type :: lubricant_case_t
       !> An oil with known constants, used for keys that are not given
       character(len=word_length) :: name = ""
-      !> File of measured viscosities, whose path the reader makes absolute
+      !> File of measured viscosities, which pyehl reads, with an absolute path
       character(len=path_length) :: table = ""
       !> Its contents [degC], [Pa], [Pa s], sorted by temperature, then by pressure
       real(dp), allocatable, dimension(:) :: table_temperature, table_pressure, table_viscosity
@@ -87,7 +88,8 @@ module ehl_case
       !> Whether pressure_viscosity is given, estimated from a data sheet, or the default with a given viscosity
       character(len=word_length) :: alpha_origin = "given"
       character(len=word_length) :: viscosity_law = "roelands"
-      !> Law of viscosity and pressure-viscosity coefficient at the inlet if viscosity_law does not give them
+      !> Law that gave viscosity and pressure-viscosity coefficient at the inlet; '': viscosity_law, or with Roelands'
+      !> or Barus' law none
       character(len=word_length) :: inlet_law = ""
       !> Set by the reader
       real(dp) :: roelands_z = 0.0_dp
@@ -115,7 +117,7 @@ module ehl_case
       real(dp) :: density_15 = 870.0_dp
       real(dp) :: thermal_expansion = 6.5e-4_dp
       logical :: thermal_reduction = .false.
-      !> Set by the reader from a data sheet
+      !> Set by the reader from a law, by pyehl from a data sheet
       real(dp) :: temperature_viscosity = 0.0_dp
       real(dp) :: thermal_conductivity = 0.14_dp
       character(len=word_length) :: thermal_friction = "auto"
@@ -135,7 +137,7 @@ module ehl_case
    !> &grid: the domain in Hertz radii a and its finest grid; all except target_error and max_points set by the reader
    type :: grid_case_t
       integer :: points = 513
-      !> As many as along X in a round contact, otherwise by the domain
+      !> As many as along X in a round contact, otherwise from the shape of the cells; 1 in a line contact
       integer :: points_y = 0
       real(dp) :: x_inlet = -2.5_dp, x_outlet = 1.5_dp, y_extent = 2.0_dp
       character(len=word_length) :: border = "zero"
@@ -181,7 +183,7 @@ module ehl_case
       logical :: tile_mirrored = .false.
       real(dp) :: shortest_wavelength = 0.0_dp, longest_wavelength = 0.0_dp
       character(len=word_length) :: filter = "sharp"
-      !> Set by the reader from ra or rq, like the keys of a finish below
+      !> Set by pyehl from ra, rq or finish, which also gives hurst, lay_ratio and rolloff_wavenumber
       real(dp) :: rms_height = 0.05e-6_dp
       real(dp) :: ra = 0.0_dp, rq = 0.0_dp
       character(len=word_length) :: finish = "none"

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Checks of the lubricant laws in a complete case: required constants, pressure range, contacts to which they apply
+!> Checks of the lubricant laws: required constants before the defaults are set; in a complete case the pressure range, and the
+!> contacts to which they apply
 module ehl_case_check_lubricant
    use ehl_case, only: case_t, word_length
    use ehl_case_defaults, only: inlet
@@ -181,7 +182,8 @@ contains
       end subroutine agree
    end subroutine check_inlet
 
-   !> Viscosity and density must increase over all pressures of the contact
+   !> Viscosity and density by laws with constants of the oil, or by a table, must increase up to `beyond_hertz` times the Hertz
+   !> pressure
    subroutine check_rise(source, input, scales, point, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input

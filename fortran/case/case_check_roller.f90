@@ -70,7 +70,7 @@ contains
       end subroutine require
    end subroutine check_roller
 
-   !> The length must be that of a line contact, at least `min_length` b, and short enough for a grid
+   !> The length must be that of a line contact, at least `min_length` b, and short enough for a grid, at most `max_length` b
    subroutine check_length(source, input, scales, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input

@@ -159,7 +159,7 @@ contains
       type(status_t), intent(inout) :: status
       class(viscosity_law_t), allocatable :: law
       real(dp) :: rise(1), level(1), at(2)
-      !> Temperature step [K]; the relative error of the difference is its square over some hundred K^2
+      !> Temperature step [K]; the relative error of the difference is about its square over 1e4 K^2
       real(dp), parameter :: step = 0.01_dp
 
       viscosity = 0.0_dp

@@ -16,8 +16,8 @@ module ehl_case_grid
    character(len=8), parameter :: grid_keys(5) = [character(len=8) :: "border", "x_inlet", "x_outlet", "y_extent", "points"]
    !> Smallest and largest number of intervals along Y on a coarsest grid
    integer, parameter :: min_rows = 8, few_rows = 32
-   !> Smallest and largest ratio hy/hx of a cell; the smallest in a smooth contact, since the film of a narrow one varies across the
-   !> motion over its width
+   !> Smallest and largest ratio hy/hx of a cell, and the smallest one in a smooth contact: the film of a narrow contact varies
+   !> across the motion over its width
    real(dp), parameter :: min_ratio = 0.25_dp, largest_ratio = 1.41_dp, min_smooth = 0.125_dp
    !> Largest ratio hy/hx in a smooth contact, and the same over kappa: the film of a wide contact varies slowly across the motion.
    !> Valid for alpha p_h up to `blunt_spike`, and without shear thinning for L up to `high_spike`: above, the pressure spike on
@@ -27,7 +27,7 @@ module ehl_case_grid
    !> thirds of the cycles are needed, at 6 and 7 up to three times as many. Below it a roller, whose film away from the ends
    !> follows its profile, has the longest cells at any alpha p_h.
    real(dp), parameter :: high_spike = 15.0_dp
-   !> Largest a-priori error of H_c on the default grid of a smooth contact
+   !> A-priori error of H_c above which the default grid of a smooth contact has twice the intervals
    real(dp), parameter :: max_error = 0.05_dp
    !> Largest a-priori error of H_c on a smaller grid of a steady, flooded contact with kappa above `very_wide`, near the median
    !> error of 0.4 % of balls on discs (docs/evidence/machines), and the smaller grids
@@ -127,7 +127,7 @@ contains
                       **merge(1.0_dp/2.0_dp, 1.0_dp/3.0_dp, input%contact%is_cylinder())
    end function duty_widening
 
-   !> Nodes along Y: as many as along X in a round contact, otherwise from the ratio hy/hx of the cells
+   !> Nodes along Y: as many as along X in a round contact, 1 in a line contact, otherwise from the ratio hy/hx of the cells
    pure integer function rows(contact, smooth, blunt, grid)
       class(contact_t), intent(in) :: contact
       !> Whether both surfaces are smooth; whether the pressure spike is blunt

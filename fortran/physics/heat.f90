@@ -5,10 +5,10 @@ module ehl_heat
    implicit none (type, external)
    private
    public :: kinematic_viscosity, dynamic_viscosity, temperature_viscosity, thermal_loading, thermal_reduction, &
-             flash_temperature, raised_speed, zero_celsius, sheet_density, walther_t, new_walther
+             flash_temperature, raised_speed, zero_celsius, density_temperature, walther_t, new_walther
 
-   !> 0 degC in kelvin, and the temperatures of data sheets [degC]
-   real(dp), parameter :: zero_celsius = 273.15_dp, sheet(2) = [40.0_dp, 100.0_dp], sheet_density = 15.0_dp
+   !> 0 degC in kelvin; temperatures of the viscosities and of the density of data sheets [degC]
+   real(dp), parameter :: zero_celsius = 273.15_dp, sheet(2) = [40.0_dp, 100.0_dp], density_temperature = 15.0_dp
    !> Power of the potential of a narrow contact in raised_speed, fitted to integrals over moving sources: error of the
    !> maximum rise 6 % for semi-axes across the motion of 1/15 to 30 times that along it, 1 % for a circle
    real(dp), parameter :: narrow = 0.38_dp
@@ -77,13 +77,13 @@ contains
       class(walther_t), intent(in) :: line
       real(dp), intent(in) :: temperature, density, expansion
 
-      viscosity = 1.0e-6_dp*line%viscosity(temperature)*density*max(0.0_dp, 1.0_dp - expansion*(temperature - sheet_density))
+      viscosity = 1.0e-6_dp*line%viscosity(temperature)*density*max(0.0_dp, 1.0_dp - expansion*(temperature - density_temperature))
    end function dynamic_of_line
 
    !> Temperature-viscosity coefficient -(d eta/dT)/eta [1/K] of the same oil
    pure real(dp) function temperature_viscosity(temperature, points, density, expansion)
       real(dp), intent(in) :: temperature, points(2), density, expansion
-      !> [K]; the relative error of the difference is its square over a few hundred K^2
+      !> [K]; the relative error of the difference is about its square over 1e4 K^2
       real(dp), parameter :: step = 0.01_dp
 
       temperature_viscosity = log(dynamic_viscosity(temperature - step, points, density, expansion) &

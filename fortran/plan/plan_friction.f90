@@ -18,7 +18,7 @@ module ehl_plan_friction
       character(len=32) :: law = "newtonian"
       !> Slide-to-roll ratio; mean velocity [m/s], 0 if not given in m/s
       real(dp) :: slide_to_roll = 0.0_dp, mean_velocity = 0.0_dp
-      !> Load [N]
+      !> Load [N], of a line per unit length [N/m]
       real(dp) :: load = 0.0_dp
       !> Shear stress above which the lubricant is not Newtonian [Pa]
       real(dp) :: newtonian_limit = 0.0_dp

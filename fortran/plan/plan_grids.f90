@@ -10,7 +10,7 @@ submodule (ehl_plan) ehl_plan_grids
 
    !> Minimum number of nodes along X of the first grid of nested iteration
    integer, parameter :: min_start_points = 33
-   !> Intervals of the coarsest grid of a line
+   !> Minimum number of intervals of the coarsest grid of a line if nothing varies along it
    integer, parameter :: coarsest_of_line = 64
    !> Length (2 H_c)^(1/2) of a thick film [a], and maximum mesh size of the coarsest grid over this length
    real(dp), parameter :: thick_film = 0.8_dp, coarsest_mesh = 0.9_dp

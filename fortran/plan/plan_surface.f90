@@ -23,12 +23,12 @@ module ehl_plan_surface
    !> Length of the ramp at the front of a map [a]
    real(dp), parameter :: map_front = 0.5_dp
 
-   !> Wavelength along Y above which a wave on a line is transverse
+   !> Wavelength along Y [b] from which a wave on a line is transverse
    real(dp), parameter :: transverse = 1.0e6_dp
 
 contains
 
-   !> Make the surfaces of a case. If one is rough, the other one is smooth unless its height is given.
+   !> Make the surfaces of a case. One without height is left out if the other one has height.
    subroutine make_surfaces(input, scales, surfaces, status, heights, second_heights)
       type(case_t), intent(in) :: input
       type(scales_t), intent(in) :: scales
@@ -65,7 +65,7 @@ contains
       !> Heights of a map [m], X first, in place of a file; of size 0: none
       real(dp), intent(in), optional :: heights(:, :)
       class(surface_t), allocatable :: surface
-      !> Amplitude over the smooth central film; 0: known already
+      !> Amplitude over the smooth central film; 0: the amplitude is known already
       real(dp) :: amplitude_over_film
       real(dp), allocatable :: tile(:, :)
       logical :: has_heights

@@ -24,7 +24,8 @@ module ehl_friction_results
       !> Kind of the coefficients, or why they are unknown; whether the film is hotter than the measured range of its viscosity
       integer :: reason = reason_none
       logical :: beyond_measured = .false.
-      !> Of the smooth contact: rolling moment [p_h a^3], mean shear rate [1/s], maximum shear stress [Pa]
+      !> Of the smooth contact: rolling moment [p_h a^3] (of a line per unit length [p_h a^2]), mean shear rate [1/s], maximum shear
+      !> stress [Pa]
       real(dp) :: rolling_moment = not_known, shear_rate = not_known, shear_stress = not_known
       !> Flash temperature [K]; maximum temperature rises of film and walls by frictional heating [K]
       real(dp) :: flash = not_known, rises(3) = not_known
@@ -121,7 +122,7 @@ contains
    end subroutine smooth_shear
 
    !> iint H/2 dP/dX, the moment of the Poiseuille flow on each surface, which resists rolling [p_h a^3]; a long inlet contributes
-   !> much (Biboulet & Houpert 2010)
+   !> much (Biboulet & Houpert 2010). On a strip the mean over Y of int H/2 dP/dX [p_h a^2].
    pure real(dp) function rolling_moment(grid, p, h)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: p(:, :), h(:, :)

@@ -280,8 +280,8 @@ contains
       call self%coarse_checkpoint%find(folder//coarser, step_text(self%input), note, status)
    end subroutine resume
 
-   !> The case as text, with defaults for the keys that change no step: end of the run, threads, output. A run may be resumed with
-   !> other values of these.
+   !> The case as text, with defaults for the keys that change no step: end of the run, threads, prediction, output except frames. A
+   !> run may be resumed with other values of these.
    function step_text(input) result(text)
       type(case_t), intent(in) :: input
       character(len=:), allocatable :: text

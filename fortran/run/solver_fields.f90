@@ -68,7 +68,7 @@ contains
       call refine(own, values)
    end procedure field
 
-   !> Interpolate bilinearly to a grid of the same extent with as many or more nodes
+   !> Interpolate bilinearly to a grid of the same extent whose numbers of intervals are a multiple of those of the coarse one
    pure subroutine refine(coarse, fine)
       real(dp), intent(in) :: coarse(:, :)
       real(dp), intent(out) :: fine(:, :)
