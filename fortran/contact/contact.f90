@@ -13,7 +13,7 @@ module ehl_contact
    type :: contact_t
       !> Integrals over the contact are in a^2, or for a line contact in b
       integer :: dimensions = 2
-      !> Semi-axis of the dry contact across the motion over that along it; D = R_x/R_y
+      !> Semi-axis of the dry contact across the motion over that along it, of a roller half its length over b; D = R_x/R_y
       real(dp) :: ellipticity = 1.0_dp, radius_ratio = 1.0_dp
       !> Angle of the principal axes against X and Y [rad], counter-clockwise; half lengths of the dry contact along X and Y
       real(dp) :: angle = 0.0_dp, reach(2) = 1.0_dp
@@ -67,7 +67,7 @@ contains
       is_roller = .false.
    end function is_roller
 
-   !> Half width of the dry contact along X at a load and a curvature, each over its value in the case
+   !> Half width of the dry contact along X at a load and a curvature; all three over their values in the case
    elemental real(dp) function growth(self, load, curvature)
       class(contact_t), intent(in) :: self
       real(dp), intent(in) :: load, curvature

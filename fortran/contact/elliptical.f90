@@ -74,7 +74,7 @@ contains
       ellipticity_of = exp(0.5_dp*(low + high))
    end function ellipticity_of
 
-   !> X^2/2 + D Y^2/2
+   !> X^2/2 + D Y^2/2 along the principal axes
    pure subroutine gap_row(self, x, y, values)
       class(elliptical_t), intent(in) :: self
       real(dp), intent(in) :: x(:), y
@@ -83,7 +83,7 @@ contains
       values = 0.5_dp*((self%along*x + self%across*y)**2 + self%radius_ratio*(self%along*y - self%across*x)**2)
    end subroutine gap_row
 
-   !> sqrt(1 - X^2 - (Y/kappa)^2), zero outside
+   !> sqrt(1 - X^2 - (Y/kappa)^2) along the principal axes, zero outside
    pure subroutine pressure_row(self, x, y, values)
       class(elliptical_t), intent(in) :: self
       real(dp), intent(in) :: x(:), y

@@ -13,7 +13,7 @@ module ehl_grid_error
    !> (measured on 33^2 to 513^2 for 0.05 <= M <= 20 over (h/s)^2: 0.61 to 0.68 up to M = 1, 1.07 at M = 5, 2.9 at M = 20)
    real(dp), parameter :: by_contact = 0.16_dp, by_film = 0.85_dp, thick_m = 5.0_dp
    !> Errors of H_c and H_min in narrow contacts over those in round ones: 1 + a (1/kappa^2 - 1)
-   !> and b/kappa^2 (docs/evidence/errors_ellipses)
+   !> and max(1, b/kappa^2) (docs/evidence/errors_ellipses)
    real(dp), parameter :: narrow_central = 0.05_dp, narrow_minimum = 0.3_dp
    !> Error of thin films of constant viscosity over h^2/H_c^(1/3), H_c on that grid: 0.26 to 0.31 for H_c, up to 0.34 for H_min
    !> (L = 0, 655 <= M <= 2304). For piezoviscous films see by_contact.
@@ -23,8 +23,8 @@ module ehl_grid_error
 
 contains
 
-   !> Approximate relative a-priori errors of H_c and H_min: that of H_min is twice that of H_c; both are larger in narrow
-   !> contacts, whose ends are sharp
+   !> Approximate relative a-priori errors of H_c and H_min: in round and wide contacts that of H_min is twice that of H_c; both
+   !> are larger in narrow contacts, whose ends are sharp
    pure function relative_errors(contact, point, h) result(errors)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point

@@ -60,7 +60,7 @@ module ehl_roller
 
    !> Fraction of the half length at which the logarithm ends
    real(dp), parameter :: last = 0.998_dp
-   !> Gap beyond the ends of the body [b^2/R], and tolerance of Y for rounding
+   !> Gap that is added at the ends of the roller and beyond [b^2/R], and tolerance of Y for rounding
    real(dp), parameter :: open = 2.0_dp, rounding = 1.0e-9_dp
    !> Number of slices for the load distribution
    integer, parameter :: slices = 200
@@ -89,7 +89,7 @@ contains
    end function new_roller
 
    !> Maximum load per unit length over its mean if the load of each slice of the roller is proportional to its approach (Palmgren):
-   !> 1 + (mean of the drop - drop)/d over the slices in contact, d the approach of bodies without a profile
+   !> (approach - minimum gap)/d, d the approach of bodies without a profile; at least 1
    pure real(dp) function max_load_ratio(contact)
       type(roller_t), intent(in) :: contact
       real(dp) :: gap(slices), row(1), low, high, approach
@@ -232,7 +232,7 @@ contains
       flash_area = 1.5_dp*pi*self%ellipticity*length**2
    end function flash_area
 
-   !> Gap: X^2/2 + profile + misalignment
+   !> Gap: X^2/2 + profile + misalignment; larger by `open` at the ends and beyond
    pure subroutine gap_row(self, x, y, values)
       class(roller_t), intent(in) :: self
       real(dp), intent(in) :: x(:), y

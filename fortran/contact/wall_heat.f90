@@ -15,7 +15,7 @@
 !>
 !>    q_1 = q/2 + k_f (T_2 - T_1)/h                                                                                    (2)
 !>
-!> and the mean across the film of conductivity k_f is (T_1 + T_2)/2 + q h/(12 k_f).
+!> and the mean temperature across the film of conductivity k_f is (T_1 + T_2)/2 + q h/(12 k_f).
 module ehl_wall_heat
    use ehl_contact, only: contact_t
    use ehl_heat, only: raised_speed

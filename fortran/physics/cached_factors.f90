@@ -12,8 +12,9 @@ module ehl_cached_factors
    private
    public :: cached_factors_t
 
-   !> Maximum changes for extrapolation: of B relative to B + sliding_offset; of S, for Carreau relative to 1 + |S|. Where the
-   !> curvature of F exceeds `weak_curvature` they are inversely proportional to it. Verified by test/test_flow.f90
+   !> Maximum changes for extrapolation: of B relative to B + sliding_offset; of S, for Carreau relative to
+   !> 1 + |S_x| + |S_y|. Where the curvature of F exceeds `weak_curvature` they are inversely proportional to it.
+   !> Verified by test/test_flow.f90
    real(dp), parameter :: max_change = 0.01_dp, sliding_offset = 0.1_dp, weak_curvature = 0.15_dp
    !> Factor of these changes in a coarse-grid correction, where errors of a few per mille of the factors do not matter
    real(dp), parameter :: coarse_grid_ratio = 5.0_dp

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Flow factors (flow_factors.f90) of several nodes at once, each by the cheapest sufficient formula: 1 where they differ
-!> from 1 by less than `negligible`, second order in the gradient where its error is below `tolerance`, else by integrals
-!> through the film. The latter start from the mean stress of second order; Newton steps correct it, and a first-order
+!> Flow factors (flow_factors.f90) of several nodes at once by the cheapest sufficient formula: 1 if those of all nodes differ
+!> from 1 by less than `negligible`, else for each node second order in the gradient if its error is below `tolerance`, or
+!> integrals through the film. The latter start from the mean stress of second order; Newton steps correct it, and a first-order
 !> correction of the factors for the remaining residual leaves an error of the square of that residual. If the error is too large,
 !> flow_factors.f90 iterates.
 module ehl_factor_rows
@@ -12,7 +12,7 @@ module ehl_factor_rows
    private
    public :: factor_rows_t, find_factors, flows_newtonian, second_order
 
-   !> Factors that differ from 1 by less than this are set to 1; maximum relative error of second-order factors
+   !> If all factors differ from 1 by less than this they are set to 1; maximum relative error of second-order factors
    real(dp), parameter :: negligible = 1.0e-6_dp, tolerance = 1.0e-4_dp
    !> Number of evaluations of the integrals before the iteration; relative error of B whose square is negligible
    integer, parameter :: passes = 3

@@ -43,12 +43,11 @@ contains
       integer, intent(in) :: viscosity_law, density_law
       !> alpha p_h
       real(dp), intent(in) :: alpha_bar
-      !> Hertz pressure and Roelands reference pressure [Pa]; a Hertz pressure of 0 (L = 0)
-      !> means a lubricant of constant viscosity and density
+      !> Hertz pressure, 0 if alpha p_h is 0 and the size of the contact is not known, and Roelands reference pressure [Pa];
+      !> with 0 the density, and with alpha p_h = 0 the viscosity, does not depend on pressure
       real(dp), intent(in) :: hertz_pressure, roelands_p0
       real(dp), intent(in) :: z
-      !> beta = -(d eta/dT)/eta and thermal expansion [1/K], temperature of the inlet [K]; absent: no dependence on
-      !> temperature
+      !> beta = -(d eta/dT)/eta and thermal expansion [1/K], absent: 0; temperature of the inlet [K], absent: 313.15
       real(dp), intent(in), optional :: beta, expansion, temperature
       type(lubricant_t) :: lubricant
       real(dp) :: with_beta, with_expansion, inlet

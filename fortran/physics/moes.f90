@@ -10,7 +10,7 @@ module ehl_moes
 
    !> Operating point. Dimensionless unless a unit is given.
    type :: operating_t
-      !> Moes load parameter M = W2 (2U)^(-3/4) and material parameter L = G (2U)^(1/4)
+      !> Moes load parameter M = W2 (2U)^(-3/4), of a line contact W1 (2U)^(-1/2), and material parameter L = G (2U)^(1/4)
       real(dp) :: moes_m = 0.0_dp, moes_l = 0.0_dp
       !> M of the round contact with the same speed parameter
       real(dp) :: round_m = 0.0_dp

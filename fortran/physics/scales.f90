@@ -10,8 +10,8 @@ module ehl_scales
    real(dp), parameter :: circle_factor = 2.0_dp/pi**2
 
    type :: scales_t
-      !> Lengths: semi-axis a of the dry contact along the motion [m]; films: a^2/R_x [m]; 0: the contact is given by
-      !> dimensionless parameters
+      !> Lengths: semi-axis a of the dry contact along the motion, of a line its half width b [m]; films: a^2/R_x [m];
+      !> 0: the contact is given by dimensionless parameters
       real(dp) :: length = 0.0_dp, film = 0.0_dp
       !> Pressures: Hertz pressure p_h [Pa]; 0 if viscosity and density are constant
       real(dp) :: pressure = 0.0_dp

@@ -45,8 +45,8 @@ module ehl_feature
 
 contains
 
-   !> A feature; lengths in Hertz radii, amplitude scaled by a^2/R. At time 0 the front end of a moving feature, or the centre of
-   !> a stationary one, is at x_start.
+   !> A feature; lengths in Hertz radii (length 0 of a dent or bump: its width), amplitude scaled by a^2/R.
+   !> At time 0 the front end of a moving feature, or the centre of a stationary one, is at x_start.
    pure function new_feature(is_raised, is_line, amplitude, width, length, angle, y_start, velocity_ratio, x_start) &
       result(self)
       !> Bump or ridge, not dent or groove; ridge or groove, not dent or bump
@@ -159,7 +159,7 @@ contains
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: time
       real(dp), intent(out) :: rr(:, :)
-      !> Distances from the centre along the motion and across it
+      !> Distances from the centre along the motion and across it; xi/width, eta, s^2
       real(dp) :: x(grid%nx), y, across, along, square
       integer :: i, j
 

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A height map as a periodic tile that moves through the contact or is stationary. Only the waves of the tile are stored, which
+!> A height map as a periodic tile that moves through the contact or is stationary. Of the tile only its waves are stored, which
 !> need the memory of one copy of the heights; for a grid, the waves that it resolves are summed exactly on the rows of the grid at
 !> points along X, and interpolated between these points.
 module ehl_height_map
@@ -30,7 +30,7 @@ module ehl_height_map
       private
       !> Its filtered waves [a^2/R] without the mean, lengths in a
       type(tile_waves_t) :: waves
-      !> Refined heights on the rows of the grid, (refinement*pixels + points - 1, ny); the first points are repeated at the end
+      !> Refined heights on the rows of the grid, (refined_points + points - 1, ny); the first points are repeated at the end
       real(dp), allocatable :: refined(:, :)
    contains
       procedure :: setup
@@ -48,8 +48,8 @@ module ehl_height_map
 
 contains
 
-   !> Set the heights of a tile of size length [a], or of a map that becomes a tile with its mirror images; the front
-   !> fades over front_length
+   !> Set the heights of a tile, or of a map that becomes a tile with its mirror images; size of the tile: length [a]; the
+   !> front fades over front_length
    subroutine setup(self, heights, scale, length, mirrored, filter, front_length, status)
       class(height_map_t), intent(inout) :: self
       !> Heights, X first, and their unit in a^2/R

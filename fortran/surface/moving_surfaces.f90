@@ -65,7 +65,7 @@ contains
       some_stationary = self%move() .and. any([(self%of(k)%surface%at_rest(), k=1, self%count())])
    end function some_stationary
 
-   !> Whether a feature passes the contact once: the run ends when it has left
+   !> Whether a feature passes the contact once: the run ends when it has left; true also for features if no surface moves
    pure logical function pass_once(self)
       class(moving_surfaces_t), intent(in) :: self
       integer :: k
@@ -217,8 +217,8 @@ contains
       common = 0
    end function common
 
-   !> Find a number n of the longest periods after which all are nearly in phase again, with several relative positions: with
-   !> 4 periods each of nearly the same length their relative motion is small
+   !> Find a number n of the longest periods after which all are nearly in phase again, with several relative positions:
+   !> after 4 periods each, of nearly the same length, they have hardly moved relative to each other
    pure subroutine find_near(self, periods, most)
       class(moving_surfaces_t), intent(inout) :: self
       real(dp), intent(in) :: periods(:)

@@ -306,8 +306,8 @@ contains
       end do
    end subroutine take_film
 
-   !> Root mean square of the composite heights [a^2/R]; 0 if it is not known or not defined. Surfaces that do not
-   !> move together are uncorrelated on average.
+   !> Root mean square of the composite heights [a^2/R]; a surface for which it is not known or not defined counts as smooth.
+   !> Surfaces that do not move together are uncorrelated on average.
    pure real(dp) function rms_height(self)
       class(rough_surfaces_t), intent(in) :: self
       integer :: k

@@ -11,7 +11,8 @@ module ehl_wave_sum
 
 contains
 
-   !> Add weight(s, i) tile(:, col(j), row(i) - shift, s) to total(:, j, i); rows are periodic, rows and columns start at 0
+   !> Add the sum over s of weight(s, i) tile(:, columns(j), rows(i) - shift, s) to total(:, j, i); rows are periodic, rows and
+   !> columns start at 0
    subroutine add_driven(tile, rows, columns, weight, shift, total)
       real(real32), intent(in), contiguous :: tile(:, 0:, 0:, :), weight(:, :)
       integer(int32), intent(in), contiguous :: rows(:), columns(:)

@@ -162,7 +162,7 @@ contains
       real(dp) :: worst(2), inside(2)
       integer :: e, n
 
-      do e = 1, 2
+      do e = 1, size(deflection_engines)
          do n = 1, 2
             call hertz_error(trim(deflection_engines(e)), 64*2**n + 1, worst(n), inside(n))
          end do
@@ -329,7 +329,7 @@ contains
       integer(int64) :: bytes(2)
       integer :: e, n
 
-      do e = 1, 2
+      do e = 1, size(deflection_engines)
          call new_deflection(trim(deflection_engines(e)), engine, status)
          call is_true(engine%bytes() == 0, deflection_engines(e)//": no memory before setup")
          do n = 1, 2

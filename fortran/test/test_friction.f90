@@ -220,7 +220,8 @@ contains
       end do
    end subroutine strip
 
-   !> Under a Hertz contact the temperature of a wall at rest is that of Tian & Kennedy, round or not
+   !> Equivalent speed of a wall at rest: on a circle that of Tian & Kennedy, lower in a wide contact, and proportional to the
+   !> length along the motion for a potential at the centre
    subroutine speed_at_rest()
       class(contact_t), allocatable :: contact
       real(dp) :: wide
@@ -257,7 +258,7 @@ contains
    end subroutine heat_in_proportion
 
    !> A row of uniform pressure and film between walls of constant temperature: every node has the temperature of its own film,
-   !> tau = G exp(-beta q h/(12 k_f)) for a Newtonian lubricant of Barus, q = tau u
+   !> tau = tau_N exp(-beta q h/(12 k_f)) for a Newtonian lubricant of Barus, tau_N at the temperature of the inlet, q = tau u
    subroutine heated_film()
       real(dp), parameter :: beta = 0.04_dp, speed = 2.0_dp, conductivity = 0.14_dp, film = 1.0e-4_dp
       type(level_t) :: level

@@ -23,7 +23,7 @@ contains
       call two_periods_that_do_not_meet()
    end subroutine run_mean
 
-   !> A product of two waves, with 1 - 0.2 or 1 + 0.2 beats in the window, at every phase: the stated error
+   !> A product of two waves, with 1 - 0.2 or 1 + 0.2 beats in the window, at twelve phases: the stated error
    !> covers the error of the mean, which counts as settled within it
    subroutine two_periods_that_do_not_meet()
       type(friction_mean_t) :: mean

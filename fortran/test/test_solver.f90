@@ -1,6 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Complete solutions on small grids, smooth and transient: with run-time checks and traps they execute every line
-!> of the solver
+!> Complete solutions on small grids, smooth and transient, which a build with run-time checks and traps executes too
 module test_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_invalid, ieee_is_nan, ieee_quiet_nan, &
                                             ieee_set_halting_mode, ieee_value

@@ -56,6 +56,6 @@ contains
          if (stat /= 0 .or. abs(back - x) > 0.0_dp) wrong = wrong + 1
       end do
       call is_equal(wrong, 0, "numbers that do not read back as the same number")
-      call is_true(to_text(tiny(1.0_dp)) /= "0.0", "the smallest number is not zero")
+      call is_true(to_text(tiny(1.0_dp)) /= "0.0", "the smallest normal number is not zero")
    end subroutine round_trips
 end module test_text
