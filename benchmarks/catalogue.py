@@ -4,7 +4,7 @@
 Deep-groove, angular-contact, cylindrical and tapered roller bearings and gear pairs in turn. Seed
 and number determine a machine. Every result is checked independently of `pyehl.machines`:
 equilibrium of the ring, Hertz pressure of a line, film formulas written out here, physical ranges.
-``--solve N`` also solves each contact of the first N machines and compares.
+``--solve N`` also solves each contact of the first N machines and compares the central films.
 """
 
 import argparse
@@ -49,7 +49,7 @@ def _rings(rng: np.random.Generator, low: float, high: float) -> tuple[float, fl
 
 
 def _balls(rng: np.random.Generator) -> tuple[Keys, float]:
-    """Draw a row of balls; returns it with its static load rating by ISO 76 [N]."""
+    """Draw a row of balls; returns it with its static load rating by ISO 76, f_0 = 14 [N]."""
     bore, outside, pitch, ball = _rings(rng, 0.5, 0.65)
     count = max(5, int(rng.uniform(0.55, 0.75) * math.pi / math.asin(ball / pitch)))
     keys = {
@@ -82,6 +82,7 @@ def angular_contact(rng: np.random.Generator) -> tuple[str, Keys]:
 
 
 def _rollers(rng: np.random.Generator) -> tuple[Keys, float]:
+    """Draw a row of rollers; returns it with its static load rating by ISO 76 at 0 deg [N]."""
     bore, outside, pitch, roller = _rings(rng, 0.42, 0.58)
     count = max(6, int(rng.uniform(0.7, 0.95) * math.pi / math.asin(roller / pitch)))
     length = roller * rng.uniform(1.0, 2.0)
@@ -278,7 +279,7 @@ def one(seed: int, number: int, solve: bool) -> Row:
         row |= {"status": REFUSED, "faults": [str(error)]}
     except Exception as error:
         row |= {"status": CRASHED, "faults": [f"{type(error).__name__}: {error}"]}
-    return row
+    return row | {"wrong": row["status"] in (WRONG, CRASHED)}
 
 
 def _solved(keys: Keys, formulas: MachineResult) -> Row:

@@ -92,7 +92,7 @@ def add_list(
 def add_number(
     to: argparse.ArgumentParser, name: str, default: float, what: str = "", *, minimum: float = 0
 ) -> None:
-    """Add an option for a number of the type of its default, at least `minimum`."""
+    """Add an option for a number of the type of its default; an integer is at least `minimum`."""
 
     def read(text: str) -> float:
         number = type(default)(text)
@@ -136,7 +136,7 @@ def header(work: Callable[..., object]) -> dict[str, object]:
 
 
 def verdict(rows: Sequence[Row]) -> int:
-    """Return the exit status: 1 if a row is wrong, or if skipping work changes its result."""
+    """Return the exit status: 1 if a row is `wrong`, or not the `same` without skipped work."""
     return int(any(row.get("wrong") or not row.get("same", True) for row in rows))
 
 

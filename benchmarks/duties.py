@@ -155,7 +155,7 @@ def inlet(rng: np.random.Generator, shape: str) -> tuple[str, dict[str, Any]]:
     case = Case.from_text("", values)
     one, film = scaling_contact(case.resolve()), float(pyehl.film(case).formulas[0]["h_c_m"])
     if rng.random() < 0.4:
-        position = max(1.06, float(rng.uniform(1.1, 2.5))) * one.hertz_radius
+        position = float(rng.uniform(1.1, 2.5)) * one.hertz_radius
         return "position", values | {"inlet.position": float(f"{position:.4g}")}
     layer = film * _scale(rng, 0.1, 1.5) * (1.0 if shape == "line" else 1.5)
     values["inlet.film"] = float(f"{layer:.4g}")

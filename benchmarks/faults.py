@@ -108,7 +108,10 @@ def _values(path: Path) -> dict[str, Any]:
 
 
 def same(one: Path, two: Path) -> str:
-    """Compare two result folders; returns what differs, '' if all bits are equal."""
+    """Compare file names, summaries without `TIMES` and arrays of two result folders.
+
+    Returns what differs; '' if nothing does.
+    """
     names = sorted(p.name for p in one.iterdir())
     if names != sorted(p.name for p in two.iterdir()):
         return f"files {names} and {sorted(p.name for p in two.iterdir())}"

@@ -126,8 +126,9 @@ def run_chunk(seed: int, count: int, folder: Path, command: Command) -> dict[str
     Returns
     -------
     dict
-        `counts` of 'refused', 'solved', 'not converged', 'accepted'; `bad`, a list of failures:
-        tracebacks, refusals without a position, incomplete folders.
+        `counts` of 'refused', 'solved', 'not converged', 'accepted', 'bad'; `bad`, a list of the
+        failures: tracebacks, other exit statuses, refusals without a place or with a folder,
+        incomplete folders.
     """
     generator = np.random.default_rng(seed)
     counts: Counter[str] = Counter()

@@ -2,9 +2,9 @@
 """Compare predictions of contacts with a boundary film with solutions of the same contacts.
 
 Seed and number determine a contact. For each one, the smooth contact of its prediction is compared
-with a solution on the same grid, a prediction with vanishing roughness with the same solution, and
-the prediction with a simulation of the rough contact. The numbers of every summary must be
-consistent (`contradictions`).
+with a solution on the same grid, a prediction with vanishing roughness with the same solution, and,
+for the first ones (``--simulate``), the prediction with a simulation of the rough contact. The
+numbers of every summary must be consistent (`contradictions`).
 """
 
 import argparse
@@ -51,8 +51,9 @@ COLUMNS = columns(
 )
 MEANING = (
     "compared: both have a load share; touching: it is not 0; no number: the prediction has none, "
-    "and says why;\nfailed: no solution; wrong: a difference above the stated errors, or numbers "
-    "that contradict each other;\nlargest ratio: of a difference of load shares to what is stated"
+    "and says why;\nfailed: no prediction or no solution; wrong: a difference above the stated "
+    "errors, or numbers that contradict each other;\nlargest ratio: of a difference of load shares "
+    "to the allowed one"
 )
 """Meaning of the columns."""
 

@@ -2,8 +2,8 @@
 """Convergence and time of random rollers.
 
 Loads per length, sizes, speeds and oils as in rolling bearings; with a crown, logarithmic profile,
-chamfer or no profile; some are misaligned, up to the angle that lifts an end of a roller without a
-profile.
+chamfer or no profile; some are misaligned, by up to the deflection at an end of a roller without a
+profile over the length.
 """
 
 import argparse
@@ -41,9 +41,10 @@ def rollers(seed: int, count: int) -> Iterator[dict[str, Any]]:
         length, radius = between(5e-3, 3e-2), between(3e-3, 1.5e-2)
         per_length = between(5e4, 6e5)
         width = math.sqrt(8.0 * per_length * radius / (math.pi * MODULUS))
-        approach = 2.0 * per_length / (math.pi * MODULUS) * (math.log(2.0 * length / width) + 1.2)
+        # at an end without a profile, under a uniform load per length
+        deflection = 2.0 * per_length / (math.pi * MODULUS) * (math.log(2.0 * length / width) + 1.2)
         profile = str(rng.choice(PROFILES))
-        deep = approach * between(0.3, 2.0)
+        deep = deflection * between(0.3, 2.0)
         keys: dict[str, Any] = {
             "shape": "roller",
             "length": length,
@@ -59,7 +60,7 @@ def rollers(seed: int, count: int) -> Iterator[dict[str, Any]]:
             "none": {},
         }[profile]
         fraction = rng.uniform(-0.5, 1.0)
-        keys["misalignment"] = max(0.0, fraction) * approach / length
+        keys["misalignment"] = max(0.0, fraction) * deflection / length
         yield {f"contact.{name}": value for name, value in keys.items()} | {
             "lubricant.viscosity": between(0.008, 0.2)
         }

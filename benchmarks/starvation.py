@@ -22,7 +22,7 @@ import pyehl
 from pyehl.theory.starvation import layer_reduction
 
 LAYERS = (0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.5)
-"""Oil layers of the table, h_oil/(rho h_flooded)."""
+"""Oil layers of the table over rho h, with the flooded film h by formula."""
 POINTS = ((50.0, 5.0), (100.0, 10.0), (300.0, 10.0), (1000.0, 10.0))
 COLUMNS = (
     "shape", "moes_m", "moes_l", "radius_ratio", "points", "r", "status", "H_c", "H_c_error",
@@ -44,7 +44,7 @@ def row(
     flooded: dict[str, Any],
     density: float,
 ) -> dict[str, Any]:
-    """Solve with a layer of `ratio` times the flooded film, and compare."""
+    """Solve with a layer of `ratio` times rho h, h by formula; compare with the flooded contact."""
     # the same layer on every grid
     film = float(pyehl.film(pyehl.Case(contact=contact)).formulas[0]["H_c"])
     layer = ratio * density * film

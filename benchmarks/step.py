@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Time of a step of a transient run, and the error of its friction ratio.
 
-Every case runs once with the largest number of threads until the roughness fills most of the
-contact; its checkpoint is then resumed with each number of threads for the same few steps, one step
-of each in turn. The unit of time is one scipy.fft deflection on the same grid, measured after each
-turn.
+Every case runs once with the largest number of threads until the front of the roughness has reached
+``--front``, by default until it fills the contact; its checkpoint is then resumed with each number
+of threads for the same few steps, one step of each in turn. The unit of time is one scipy.fft
+deflection on the same grid, measured after each turn.
 """
 
 import argparse

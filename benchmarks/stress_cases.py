@@ -186,7 +186,7 @@ def _steps(case: StressCase, period: float, front: float, velocity: float) -> in
 
 
 def _film(case: StressCase) -> float:
-    """Approximate central film [a^2/R], 1.3 M^-1/12 L^3/4 (3M/2)^-2/3, to scale the roughness."""
+    """Approximate central film [a^2/R], 1.3 M^-1/12 L^3/4 (3M/2)^-2/3 with L of at least 2."""
     piezo = 1.3 * case.moes_m ** (-1.0 / 12.0) * max(case.moes_l, 2.0) ** 0.75
     return float(piezo * (1.5 * case.moes_m) ** (-2.0 / 3.0))
 

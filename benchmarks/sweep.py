@@ -2,7 +2,7 @@
 """Throughput of studies, overhead per case, and the time estimate.
 
 Each problem runs as a study, in one worker process and in several. The start of the workers, which
-import the package, is subtracted: it ends with the first row.
+import the package, is subtracted: it ends when the case of the first row begins.
 """
 
 import argparse
@@ -27,7 +27,7 @@ COLUMNS = columns(
     "cases_per_core_hour:.0f busy:.2f overhead_ms:.2f efficiency:.2f"
 )
 MEANING = (
-    "wall seconds: from the start of the workers to the last row; estimate: of the plan; busy: "
+    "wall seconds: from the first case to the last row; estimate: of the plan; busy: "
     "fraction of the workers' time in cases;\noverhead: of a case, in the plan and in one "
     "worker; efficiency: throughput over that of the first number of processes"
 )
@@ -41,7 +41,7 @@ class Problem:
     # Its name, and the kind of run of each case
     name: str
     run: str
-    cases: int  # number of cases for each process
+    cases: int  # number of cases over the largest number of processes
     # Options ``group.key=value``. The mean velocity is varied, or the key without a value
     options: tuple[str, ...]
 
@@ -57,7 +57,7 @@ PROBLEMS = (
     Problem("transient 257", "solve", 2, (*WAVE, "grid.points=257")),
     Problem("transient 513", "solve", 1, (*WAVE, "grid.points=513")),
 )
-"""Problems by name: a prediction of a fractal surface, smooth contacts, passages of a waviness."""
+"""Films by formula, predictions of fractal surfaces, smooth contacts, passages of a waviness."""
 
 
 class _FirstRow(Watcher):

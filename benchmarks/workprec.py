@@ -2,8 +2,8 @@
 """Work-precision: error against processor time and work units, and the cheapest settings.
 
 Every setting is one run. The unit, one scipy.fft deflection on the same grid, is measured before
-each run. The reference of the errors is extrapolated from the two finest grids with the narrow
-scheme; its error bar is its change by the finest grid.
+the runs on a grid. The reference of the errors is extrapolated from the two finest grids with the
+narrow scheme; its error bar is its change by the finest grid.
 """
 
 import argparse
@@ -54,7 +54,8 @@ class Problem:
     name: str
     options: tuple[str, ...]  # its case, as options ``group.key=value``
     quantities: tuple[str, ...]  # quantities whose error is measured
-    # Nodes per side; the last grid only with ``--full``, at default settings, for the reference
+    # Nodes per side; the last grid only with ``--full``, for the reference (of a rough contact at
+    # default settings)
     grids: tuple[int, ...]
     rough: bool = True  # whether schemes, coarsenings and the prediction apply
 

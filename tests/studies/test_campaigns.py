@@ -8,6 +8,7 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import catalogue
 import duties
 import faults
 import faults_inputs
@@ -229,6 +230,13 @@ def test_stated_errors_that_miss_are_counted():
     assert (wide["drawn"], wide["converged"], wide["restarts"]) == (4, 3, 4)
     assert (wide["checked"], wide["h_c_covered"], wide["h_min_covered"]) == (2, 1, 2)
     assert wide["median_ratio"] is None
+
+
+def test_impossible_values_of_a_machine_are_counted(monkeypatch: pytest.MonkeyPatch):
+    """A wrong machine gives exit status 1; one without faults gives 0."""
+    assert catalogue.main(["--count", "1"]) == 0
+    monkeypatch.setattr(catalogue, "faults", lambda keys, result: ["torque"])
+    assert catalogue.main(["--count", "1"]) == 1
 
 
 @pytest.mark.long
