@@ -207,7 +207,7 @@ def _notes_and_findings(
         f"{ours_wide[1]:.3f} and {theirs_wide[1]:.3f}. Towards the sides the inlet is oblique, "
         "and the response uses the normal of the edge at each line.",
         f"The roughness of the predictions agrees with that of the solver within "
-        f"{100 * data.at_node:.2g} % of its rms (waves that the grid does not resolve).",
+        f"{100 * data.at_node:.2g} % of its rms (the solver interpolates it along X).",
     ]
     findings = [
         Finding(

@@ -95,7 +95,7 @@ def show(data: Surfaces, references: References, level: Level) -> Result:
     spread = float(np.nanmin(data.simulated)), float(np.nanmax(data.simulated))
     notes = [
         f"On {level.surface_grid} x {level.surface_grid} nodes; the predictions count the waves "
-        "that this grid resolves, those longer than two nodes.",
+        "that this grid resolves, those longer than two mesh sizes.",
         f"Simulated mu_r/mu_s of {seeds.size} surfaces with the inputs of Table 1: mean "
         f"{np.nanmean(data.simulated):.3f}, {spread[0]:.3f} to {spread[1]:.3f}.",
         *(

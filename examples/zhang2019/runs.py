@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Studies of the figures: run as by ``pyehl sweep``, hence resumed and never repeated.
+"""Studies of the figures: run as by ``pyehl sweep``, hence resumed; only failed cases are repeated.
 
 Each study is a folder with its journal and its table, whose rows the figures show.
 """

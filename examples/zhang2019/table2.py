@@ -87,8 +87,8 @@ def show(data: Meshes, references: References, level: Level) -> Result:
         for mesh, method, value, seconds in data.rows
     ]
     notes.append(
-        "Predictions count the waves that a mesh resolves, those longer than two nodes. Seconds "
-        "are of one thread, and of a machine that may have had other work."
+        "Predictions count the waves that a mesh resolves, those longer than two mesh sizes. "
+        "Seconds are of one thread, and of a machine that may have had other work."
     )
     return Result(
         checks,
