@@ -43,7 +43,9 @@ contains
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: moes, si, expected
-      character(len=2), parameter :: endings(2) = ["  ", "_2"]
+      character(len=22), parameter :: profile_files(2) = [character(len=22) :: "contact.profile_file", "contact.profile_file_2"]
+      character(len=14), parameter :: tables(2, 2) = reshape([character(len=14) :: "profile_y", "profile_drop", &
+                                                                                   "profile_y_2", "profile_drop_2"], [2, 2])
       integer :: body
 
       call check_line(source, input, status)
@@ -79,8 +81,7 @@ contains
       call need(if_given("duty.file"), "duty", ["time"], "the values of the table")
       do body = 1, 2
          if (input%contact%profiles(body)%kind /= "file") cycle
-         call need(if_given("contact.profile_file"//trim(endings(body))), "contact", &
-                   [character(len=14) :: "profile_y"//endings(body), "profile_drop"//endings(body)], "the values of the table")
+         call need(if_given(trim(profile_files(body))), "contact", tables(:, body), "the values of the table")
       end do
       call need_height("surface", input%surface)
       call need_height("second_surface", input%second_surface)
