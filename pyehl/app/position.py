@@ -26,11 +26,15 @@ OWNED = {
         "name", "viscosity", "kinematic_viscosity_40", "kinematic_viscosity_100", "temperature",
         "pressure_viscosity", "shear_law", "eyring_stress", "carreau_stress", "carreau_exponent",
     },
-    "surface": {"kind", "rms_height", "hurst", "seed", "file", "length_x", "length_y"},
+    "surface": {
+        "kind", "rms_height", "ra", "rq", "finish", "hurst", "seed", "file", "length_x", "length_y",
+    },
     "grid": {"points", "points_y", "target_error", "max_points"},
 }  # fmt: skip
 # Keys that belong to the oil of an opened case only
 OF_SHEET = ("density_15", "thermal_expansion")
+# Keys of a surface that follow from its finish, and are no controls
+OF_FINISH = ("rolloff_wavenumber", "lay_ratio")
 STEEL = {"modulus_1": 206.0, "poisson_1": 0.3, "modulus_2": 206.0, "poisson_2": 0.3}
 STEEL_MODULUS = STEEL["modulus_1"] * 1e9 / (1.0 - STEEL["poisson_1"] ** 2)
 """E' of two such bodies [Pa]."""
@@ -198,11 +202,16 @@ class Position:
 
 
 def _kept(text: str) -> str:
-    """Give the keys of a resolved case that the controls do not set."""
-    groups = {}
+    """Give the keys of a resolved case that the controls do not set.
+
+    In place of a finish its spectrum and lay.
+    """
+    groups, surface = {}, namelist.values(text)["surface"]
     for group, keys in namelist.values(namelist.given(text)).items():
         owned = OWNED.get(group, set())
         rest = {} if owned is None else {k: v for k, v in keys.items() if k not in owned}
+        if keys.get("finish", "none") != "none":
+            rest |= {key: surface[key] for key in OF_FINISH}
         if rest:
             groups[group] = rest
     return namelist.text_of(groups)

@@ -14,6 +14,7 @@ from pyehl import display, namelist
 from pyehl.case.complete import complete
 from pyehl.case.reader import read
 from pyehl.case.source import read_text
+from pyehl.case.surfaces import without_fractal
 from pyehl.case.writer import case_text
 from pyehl.errors import InputError
 from pyehl.given import Option, options_of, path_of, text_of
@@ -140,9 +141,9 @@ class Case:
         """Give the case of the smooth contact: everything but its rough surfaces."""
         groups = self.resolve()
         rough = [name for name in ("second_surface", "surface") if name in groups]
-        options = {f"{name}.kind": "smooth" for name in rough}
-        # a finish is that of a fractal surface
-        options |= {f"{name}.finish": "none" for name in rough if groups[name]["finish"] != "none"}
+        options: dict[str, Any] = {f"{name}.kind": "smooth" for name in rough}
+        for name in rough:
+            options |= without_fractal(name, groups[name])
         return self.with_options(options)
 
     def __repr__(self) -> str:

@@ -3,7 +3,8 @@
 
 import math
 import os
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 from pyehl.case.key import short
 from pyehl.case.settings import Draft
@@ -20,6 +21,8 @@ RQ_OVER_RA = math.sqrt(0.5 * math.pi)
 X_MATTERS, X_FILLED = -1.25, 1.05
 # Time in which the film made in the inlet passes the contact [a/u]
 THROUGH = 2.0
+# Keys of a fractal surface that other kinds refuse, and their values without an effect
+FRACTAL_ALONE = {"finish": "none", "ra": 0.0, "rq": 0.0}
 HEIGHT_MAP = "a height map: .npy, text or a file of an instrument"
 
 
@@ -42,6 +45,18 @@ FINISHES = {
     "superfinished": Finish(0.05e-6, 0.8, 40.0e-6, 3.0),
     "polished": Finish(0.01e-6, 0.8, 50.0e-6, 1.0),
 }
+
+
+def without_fractal(group: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Give the options of a case that unset the keys of a fractal surface, for another kind.
+
+    `values` are those of the group in a resolved case.
+    """
+    return {
+        f"{group}.{key}": value
+        for key, value in FRACTAL_ALONE.items()
+        if values.get(key, value) != value
+    }
 
 
 def complete(draft: Draft) -> None:

@@ -12,6 +12,7 @@ from typing import Any
 
 from pyehl import lengths
 from pyehl.case import Case, exchanged, files_of
+from pyehl.case.surfaces import without_fractal
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.destination import check_files, made_by, mark, new_file
 from pyehl.errors import FileError, InputError
@@ -180,7 +181,8 @@ def _write(
     written = [write_map(surface, path), beside]
     size = {"surface.length_x": surface.length_x, "surface.length_y": surface.length_y}
     name = str(path.absolute()).replace("'", "''")
-    text = case.with_options(READY_IN_PLACE, size, f"surface.file='{name}'").text
+    done = without_fractal("surface", case["surface"])
+    text = case.with_options(READY_IN_PLACE, done, size, f"surface.file='{name}'").text
     # a relative name: the folder may be moved
     text = text.replace(f"'{name}'", "'" + path.name.replace("'", "''") + "'")
     with new_file(beside) as fresh:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from pyehl.case import Case, files_of
 from pyehl.case.surface_group import Surface as Keys
+from pyehl.case.surfaces import without_fractal
 from pyehl.destination import check_files, made_by, mark, new_file
 from pyehl.errors import InputError
 from pyehl.given import heights_of, real_numbers
@@ -167,8 +168,9 @@ def with_surface(case: Case, surface: Surface, group: str = "surface") -> tuple[
 
     InputError if it is no surface of heights, or the case does not state its size.
     """
-    tile = in_memory(surface, case.resolve().get(group, {}), group)
-    return case.with_options(as_map(tile, group)), tile
+    values = case.resolve().get(group, {})
+    tile = in_memory(surface, values, group)
+    return case.with_options(as_map(tile, group), without_fractal(group, values)), tile
 
 
 @dataclass(frozen=True, slots=True)
@@ -285,9 +287,9 @@ def write_resolved(
         x, y = (float(surface[f"tile_{axis}"] or surface[f"length_{axis}"]) for axis in "xy")
         ready = as_map(Topography(made.heights, (x, y)), group)
         ready[f"{group}.file"] = str(tile.absolute())
+        ready |= without_fractal(group, surface)
         # already applied to the heights
-        done = {"finish": "none", "track": 0.0, "ra": 0.0, "rq": 0.0}
-        ready |= {f"{group}.{k}": value for k, value in done.items() if surface[k] != value}
+        ready |= {f"{group}.track": 0.0} if surface["track"] else {}
         ready[f"{group}.tile_mirrored"] = surface["tile_mirrored"]
         case = case.with_options(ready)
     with new_file(path) as fresh:

@@ -92,6 +92,18 @@ def test_opened_case_is_the_case(text):
     assert again.values == position.values
 
 
+@pytest.mark.parametrize(
+    "keys", ["kind='fractal' ra=5e-8", "kind='fractal' rq=5e-8", "finish='honed'"]
+)
+def test_a_height_in_another_form_becomes_the_rms_height(keys):
+    case = Case.from_text(f"&surface {keys} /")
+    position, _ = from_case(case)
+    made, own = position.case(129)["surface"], case["surface"]
+    for key in ("rms_height", "hurst", "lay_ratio", "rolloff_wavenumber"):
+        assert made[key] == pytest.approx(own[key], rel=1e-11)
+    assert position.changed("surface", "smooth").case(129)["surface"]["kind"] == "smooth"
+
+
 def test_oil_of_a_data_sheet_can_be_replaced():
     position, _ = from_case(Case.from_text(CASES["sheet"]))
     assert position.values["oil"] == "of the data sheet"

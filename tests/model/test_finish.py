@@ -63,6 +63,22 @@ def test_a_finish_sets_the_missing_keys():
     assert case.with_options({"surface.finish": "polished"}).resolve()["surface"]["hurst"] == 0.8
 
 
+@pytest.mark.parametrize(
+    "keys", ["kind='fractal' ra=5e-8", "kind='fractal' rq=5e-8", "finish='ground'"]
+)
+def test_another_surface_in_its_place(keys, tmp_path):
+    """Its keys are unset for a smooth contact, for heights in memory and for a written tile."""
+    case = pyehl.Case.from_text(f"{SMALL}&surface {keys} pixels=16 /\n")
+    assert case.smooth()["surface"]["kind"] == "smooth"
+    for heights in (None, np.zeros((16, 16))):
+        with pyehl.Solver(case, surface=heights) as solver:
+            assert solver.shape == (33, 33)
+    (tmp_path / "case.nml").write_text(case.text)
+    words = ["surface", str(tmp_path / "case.nml"), "-o", str(tmp_path / "tile.npy"), "--no-plots"]
+    assert cli.main(words) == 0
+    assert pyehl.Case(tmp_path / "tile.npy.nml")["surface"]["kind"] == "map"
+
+
 def test_cells_of_a_finish_are_those_of_its_fractal_surface():
     """A wide smooth contact has cells that are longer across the motion, too long for waves."""
     wide = {"contact.radius_x": 0.01, "contact.radius_y": 0.3, "contact.load": 300.0}
