@@ -61,7 +61,7 @@ REASONS = {
     34: "isothermal: there is no frictional heat without sliding",
     35: "isothermal: the Newtonian stress is above lubricant.eyring_stress, its heat is not "
     "computed",
-    36: "isothermal: by estimate a rise of {rise} K changes it by less than 0.1 %",
+    36: "isothermal: by estimate a rise of {rise} K changes the friction by less than 0.1 %",
     37: "isothermal: the temperature of a wall at rest under an infinite line has no limit",
     38: f"{WITH_HEAT}; {OF_ROUGH}",
     41: NO_SIZE,

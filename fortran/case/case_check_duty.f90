@@ -83,7 +83,8 @@ contains
          end if
          if (d%periodic) call check_period()
          if (source%first_given("time") /= "") call source%refuse(source%first_given("time"), source%first_given("time")// &
-            " with a duty", "none of &time: the table says how long, duty.time_step and duty.target_error how finely", status)
+            " with a duty", "none of &time: the table sets the duration, duty.time_step and duty.target_error the "// &
+            "time steps", status)
          if (input%grid%border == "flooded") call source%refuse("grid.border", "grid.border = 'flooded' with a duty", &
             "'zero': a duty changes the distance of the border, and the flooded pressure there is not known", status)
          if (d%reverses() .and. abs(input%grid%x_inlet + input%grid%x_outlet) > 1.0e-9_dp*input%grid%x_outlet) then

@@ -265,7 +265,7 @@ contains
 
       if (status%failed()) return
       if (surfaces%max_unresolved(grid, aliased_below) < 1.0_dp) return
-      call status%fail(ehl_bad_input, "all waves of the surface are shorter than two nodes of the grid of "// &
+      call status%fail(ehl_bad_input, "all waves of the surface are shorter than two mesh sizes of the grid of "// &
                        to_text(grid%nx)//" x "//to_text(grid%full_ny())//" nodes, in space or in the time steps: it resolves "// &
                        "none of them"//new_line("a")//"expected: a finer grid (grid.points), or longer waves")
    end subroutine check_resolved

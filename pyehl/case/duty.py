@@ -194,8 +194,8 @@ def _check_beside(draft: Draft) -> None:
         draft.refuse("grid.target_error", "grid.target_error with a duty", expected)
     if name := draft.first_given(key.name for key in GROUPS["time"]):
         expected = (
-            "none of &time: the table says how long, duty.time_step and duty.target_error how "
-            "finely"
+            "none of &time: the table sets the duration, duty.time_step and duty.target_error the "
+            "time steps"
         )
         draft.refuse(name, f"{name} with a duty", expected)
 

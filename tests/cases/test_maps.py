@@ -139,7 +139,7 @@ def test_a_wave_shorter_than_two_nodes_is_refused(drive, tmp_path: Path, driver:
     )
     done = drive(driver, "case.nml", "-o", "out")
     assert done.returncode == 2
-    assert "shorter than two nodes" in done.stderr
+    assert "shorter than two mesh sizes" in done.stderr
     assert "65 x 65" in done.stderr
 
 
