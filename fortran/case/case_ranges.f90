@@ -117,7 +117,7 @@ contains
       range = list(:index(list, ";") - 1)
    end function range_of
 
-   !> Whether a number lies in an interval
+   !> Whether a number lies in an interval, which includes its upper end
    pure logical function allows(range, value)
       character(len=*), intent(in) :: range
       real(dp), intent(in) :: value

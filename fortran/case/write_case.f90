@@ -16,7 +16,7 @@ module ehl_write_case
 contains
 
    !> Write a complete case as namelist text. Of keys that exclude each other only the valid one is written; with a source, values
-   !> that were not given are marked, including those derived by pyehl.
+   !> that were not given are marked, including those derived by pyehl, except lists.
    subroutine write_case(input, text, source)
       type(case_t), intent(in) :: input
       character(len=:), allocatable, intent(out) :: text

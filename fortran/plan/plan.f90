@@ -34,7 +34,7 @@ module ehl_plan
    integer, parameter :: max_steps = 100000, max_steps_given = 1000000000
 
    !> Aspect ratio Y/X of the dry contact above which a restart is allowed on any grid, since cycles may alternate between two
-   !> states
+   !> states; under a duty the damping of a step then applies to the finest grid alone
    real(dp), parameter :: wide = 2.0_dp
    !> Aspect ratio Y/X above which coarse grids leave a sharp spike to relaxation, since the trailing edge moves from column to
    !> column within a few rows
@@ -48,9 +48,9 @@ module ehl_plan
       type(lubricant_t) :: lubricant
       !> Whether the inlet is starved
       logical :: starved = .false.
-      !> Central film of the flooded contact, by formula
+      !> Central film of the flooded contact, by formula [a^2/R]
       real(dp) :: film_flooded = 0.0_dp
-      !> Central film with the given oil layer, by formula
+      !> Central film with the given oil layer, by formula [a^2/R]
       real(dp) :: film_starved = 0.0_dp
       !> Whether the smooth contact may have solid contact at the boundary film
       logical :: solid_contact = .false.

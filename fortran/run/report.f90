@@ -48,19 +48,19 @@ contains
    end subroutine report_problem
 
    !> Results of a transient run, null unless it converged
-   subroutine report_transient(record, run, good, known, mean, change)
+   subroutine report_transient(record, run, good, known, mean, stop_error)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
       !> Whether the run converged, and whether friction is known
       logical, intent(in) :: good, known
-      !> Mean friction ratio, and its change at the end
-      real(dp), intent(out) :: mean, change
+      !> Mean friction ratio, and its error at the end of the run
+      real(dp), intent(out) :: mean, stop_error
       real(dp), allocatable :: films(:), pressures(:)
       real(dp) :: range(2), ratio, extremes(2)
 
       mean = not_known
       range = not_known
-      change = not_known
+      stop_error = not_known
       ratio = not_known
       extremes = not_known
       associate (t => run%transient, surfaces => run%plan%surfaces)
@@ -74,10 +74,10 @@ contains
             end if
             if (surfaces%pass_once()) then
                ! a passage ends by itself, and has no amplitude ratio
-               change = 0.0_dp
+               stop_error = 0.0_dp
             else
                ratio = t%mean%amplitude_ratio()
-               if (t%mean%has_change()) change = t%mean%uncertainty()
+               if (t%mean%has_change()) stop_error = t%mean%uncertainty()
             end if
          else if (known) then
             if (t%mean%has_mean()) call record%set("last_mu_ratio_mean", t%mean%mean(0.0_dp))
