@@ -9,6 +9,7 @@ from matplotlib import pyplot
 
 import pyehl
 from pyehl import surfaces
+from pyehl.contact.smooth import solve_contact
 
 # A resolved case: the reference conditions with the fractal surface, the model of the paper
 RESOLVED = pyehl.Case(
@@ -23,6 +24,12 @@ RESOLVED["surface"]["amplitude_over_film"] = 0.4
 def settings():
     """A resolved case that a test may change."""
     return copy.deepcopy(RESOLVED)
+
+
+@pytest.fixture(scope="module")
+def contact():
+    """The smooth contact of Table 1."""
+    return solve_contact(pyehl.Case.from_text("").resolve())
 
 
 @pytest.fixture
