@@ -121,15 +121,13 @@ contains
          if (s%finish /= "none") key = group//".finish"
          if (s%rq > 0.0_dp) key = group//".rq"
          if (s%ra > 0.0_dp) key = group//".ra"
-         call need(key, group, ["kind"], "rms_height alone")
+         call need(key, group, [character(len=10) :: "kind", "rms_height"], "rms_height alone")
          if (s%finish /= "none") call need(group//".finish", group, ["rolloff_wavenumber"], "the values of the finish alone")
-         if (status%failed()) return
-         if (key /= group//".finish" .and. key /= "") then
-            ! the derived height may equal the default, which a resolved case marks as such
-            if (abs(merge(rq_over_ra*s%ra, s%rq, s%ra > 0.0_dp) - s%rms_height) <= same_height*s%rms_height) return
-            if (source%given(group//".rms_height")) call source%contradict(key, group//".rms_height", "one of the two", status)
+         if (.not. status%failed() .and. key /= group//".finish" .and. key /= "") then
+            if (abs(merge(rq_over_ra*s%ra, s%rq, s%ra > 0.0_dp) - s%rms_height) > same_height*s%rms_height) then
+               call source%contradict(key, group//".rms_height", "one of the two", status)
+            end if
          end if
-         if (.not. status%failed()) call need(key, group, ["rms_height"], "rms_height alone")
       end subroutine need_height
    end subroutine check_given
 

@@ -194,8 +194,11 @@ def files_of(settings: Settings) -> list[str]:
 
 def exchanged(case: Case) -> Case:
     """Give the same contact with the groups of its surfaces exchanged; each stays on its body."""
-    groups = case.resolve()
-    contact = {**groups["contact"], "rough_surface": 3 - groups["contact"]["rough_surface"]}
-    second = groups.get("second_surface", {"kind": "smooth"})
-    groups |= {"contact": contact, "surface": second, "second_surface": groups["surface"]}
+    values, groups = case.resolve(), namelist.values(namelist.given(case.text))
+    rough = {"rough_surface": 3 - values["contact"]["rough_surface"]}
+    groups["contact"] = groups.get("contact", {}) | rough
+    second = values.get("second_surface", {"kind": "smooth"})
+    # with all values, of which the rms height states Ra and Rq
+    for group, keys in (("surface", second), ("second_surface", values["surface"])):
+        groups[group] = {key: value for key, value in keys.items() if key not in ("ra", "rq")}
     return Case.from_text(namelist.text_of(groups), origin="case with its surfaces exchanged")

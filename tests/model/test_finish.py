@@ -9,6 +9,7 @@ import pytest
 
 import pyehl
 from pyehl import cli
+from pyehl.case import exchanged
 from pyehl.errors import InputError
 from pyehl.prediction.predict import predict
 from pyehl.surfaces import fractal
@@ -70,6 +71,7 @@ def test_another_surface_in_its_place(keys, tmp_path):
     """Its keys are unset for a smooth contact, for heights in memory and for a written tile."""
     case = pyehl.Case.from_text(f"{SMALL}&surface {keys} pixels=16 /\n")
     assert case.smooth()["surface"]["kind"] == "smooth"
+    assert exchanged(case)["second_surface"]["rms_height"] == case["surface"]["rms_height"]
     for heights in (None, np.zeros((16, 16))):
         with pyehl.Solver(case, surface=heights) as solver:
             assert solver.shape == (33, 33)
