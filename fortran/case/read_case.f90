@@ -129,7 +129,7 @@ contains
    subroutine drop_marked(source)
       type(case_source_t), intent(inout) :: source
       type(case_source_t) :: given
-      type(case_t) :: trial, default_case
+      type(case_t) :: trial
       type(status_t) :: ignored
       character(len=name_length), allocatable :: keys(:)
       character(len=path_length + 2), allocatable :: values(:)
@@ -140,14 +140,10 @@ contains
       allocate (follows(size(source%pieces)))
       follows = source%pieces%marked
       if (.not. any(follows)) return
-      group = ""
       do k = 1, size(follows)
          if (.not. (follows(k) .and. any(keys_by_pyehl == source%pieces(k)%key) .and. &
                    any(groups_by_pyehl == source%pieces(k)%group))) cycle
-         if (source%pieces(k)%group /= group) call write_group(trim(source%pieces(k)%group), default_case, keys, values)
-         group = source%pieces(k)%group
-         follows(k) = values(findloc(keys, source%pieces(k)%key, dim=1)) == source%pieces(k)%value .and. &
-                      .not. has_source(source%pieces(k)%group)
+         follows(k) = .not. has_source(source%pieces(k)%group)
       end do
       given = source
       call keep_pieces(given%pieces, .not. follows)
@@ -165,7 +161,7 @@ contains
 
    contains
 
-      !> Whether the text gives a key from which pyehl derives values of a group, which may equal their defaults
+      !> Whether the text gives a key from which pyehl derives values of a group
       logical function has_source(of)
          character(len=*), intent(in) :: of
          integer :: i
