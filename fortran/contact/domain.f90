@@ -77,8 +77,9 @@ contains
       flooded_by_default = contact%is_line() .or. point%round_m < first_usual .or. elongation(contact) > too_wide
    end function flooded_by_default
 
-   !> The domain of a contact: that of Zhang et al. 2019, with sides further out around an ellipse; with a flooded border a domain
-   !> of that shape that increases with the film. Cells are square, and X = 0 is a node of every grid of 32 n + 1 nodes.
+   !> The domain of a contact: that of Zhang et al. 2019, with other sides around an ellipse; with a flooded border a domain of
+   !> that shape that increases with the film; of a line or a roller from ehl_line_domain. Around a round contact it is square.
+   !> X = 0 is a node of every grid of 32 n + 1 nodes.
    pure function needed_domain(contact, point, flooded) result(domain)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
