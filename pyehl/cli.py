@@ -89,7 +89,10 @@ def _execute(args: argparse.Namespace) -> int:
         # the reader has closed the pipe, as `| head` does
         mute()
         return EXIT_FAILED
+    except EhlError:
+        raise
     except OSError as error:
+        # of standard output, or of another file
         try:
             print(flush=True)
         except OSError:

@@ -202,6 +202,15 @@ def test_damaged_result_folder(quick: str, tmp_path: Path, damage: str):
         pyehl.load(tmp_path / "out")
 
 
+def test_a_damaged_file_prints_nothing_on_standard_output(tmp_path: Path, capsys):
+    (tmp_path / "case.nml").write_text(SMALL)
+    (tmp_path / "summary.json").write_text('{"kind"')
+    assert cli.main(["export", str(tmp_path)]) == 1
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert "summary.json or case.nml is damaged" in printed.err
+
+
 @pytest.mark.parametrize("command", ["plot", "export"])
 def test_result_of_another_kind(tmp_path: Path, capsys: pytest.CaptureFixture[str], command: str):
     """The folder of a response contains a case and a summary, too."""
