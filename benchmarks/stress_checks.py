@@ -31,7 +31,8 @@ MIN_ERROR = 1e-3
 def judge(row: Row, strict: Mapping[str, Any]) -> None:
     """Compare a result with that of the stricter run; wrong if they differ by more than its error.
 
-    Without a mean, or without its error estimate, the allowed difference is `UNKNOWN_ERROR`.
+    The allowed relative difference is at least 1e-3. Without a mean, or without its error estimate,
+    the allowed difference is `UNKNOWN_ERROR`.
     """
     name, error = RESULTS.get(row["family"], ("mu_ratio", "mu_ratio_error"))
     value, other = row[name], strict.get(name)

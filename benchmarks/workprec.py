@@ -133,7 +133,7 @@ def _run(
 
 
 def _predicted(problem: Problem, unit: float) -> list[Row]:
-    """Return the row of the prediction, as one more setting."""
+    """Return the row of the prediction, as one more setting; its unit is of the finest grid."""
     if problem.name == "wave":
         # the prediction needs heights in metres, which this case does not have
         return []

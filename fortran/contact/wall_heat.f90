@@ -70,7 +70,7 @@ contains
    end function speed_of_rest
 
    !> Data of a contact for flash_temperature: half its length along the motion, through its centre [a], and
-   !> iint P/r at the centre over that of a circle of this radius
+   !> iint P/r at the centre over that of a circle of this radius; of an infinite line 1 and huge()
    pure function heat_source(contact) result(source)
       class(contact_t), intent(in) :: contact
       real(dp) :: source(2)
