@@ -20,11 +20,11 @@ module ehl_read_case
 
    !> Maximum size of a case file [bytes]
    integer, parameter :: max_file_size = 1000000
-   !> Keys that pyehl derives, from two bodies, an oil, a data sheet, a finish, a roughness parameter or a file, and their groups
+   !> Keys except lists that pyehl derives, from two bodies, an oil, a data sheet, a table, a finish or a roughness parameter, and
+   !> their groups
    character(len=name_length), parameter :: keys_by_pyehl(*) = [character(len=name_length) :: "radius", "radius_x", "radius_y", &
       "reduced_modulus", "viscosity", "pressure_viscosity", "temperature_viscosity", "viscosity_law", "inlet_law", &
-      "alpha_origin", "kind", "rms_height", "table_temperature", "table_pressure", "table_viscosity", &
-      "profile_y", "profile_drop", "profile_y_2", "profile_drop_2"], &
+      "alpha_origin", "kind", "rms_height"], &
       groups_by_pyehl(*) = [character(len=name_length) :: "contact", "lubricant", "surface", "second_surface"]
    !> Keys from which pyehl derives others of the same group; those of contact follow from &bodies
    character(len=name_length), parameter :: source_keys(*) = [character(len=name_length) :: "name", "table", &
@@ -138,7 +138,8 @@ contains
       integer :: k
 
       allocate (follows(size(source%pieces)))
-      follows = source%pieces%marked
+      ! pyehl derives lists from files
+      follows = source%pieces%marked .and. source%pieces%values <= 1
       if (.not. any(follows)) return
       do k = 1, size(follows)
          if (.not. (follows(k) .and. any(keys_by_pyehl == source%pieces(k)%key) .and. &

@@ -16,7 +16,7 @@ module ehl_write_case
 contains
 
    !> Write a complete case as namelist text. Of keys that exclude each other only the valid one is written; with a source, values
-   !> that were not given are marked, including those derived by pyehl, except lists.
+   !> that were not given are marked, including those derived by pyehl.
    subroutine write_case(input, text, source)
       type(case_t), intent(in) :: input
       character(len=:), allocatable, intent(out) :: text
@@ -43,11 +43,12 @@ contains
             if (values(k) == "") then
                call list_text(keys(k), input, line)
                if (line == "") cycle
-            else if (present(source)) then
+            end if
+            if (present(source)) then
                piece = source%find(trim(group_names(n))//"."//trim(keys(k)))
                marked = piece == 0
                if (piece > 0) marked = source%pieces(piece)%marked
-               if (marked) line = line//" "//merge(mark_default, mark_derived, values(k) == defaults(k))
+               if (marked) line = line//" "//merge(mark_default, mark_derived, values(k) == defaults(k) .and. values(k) /= "")
             end if
             text = text//line//newline
          end do

@@ -351,6 +351,18 @@ def test_overrides_of_a_written_case_are_whole(drive, tmp_path: Path, groups, op
     assert texts[0] != Case(tmp_path / "first" / "case.nml").text
 
 
+def test_table_of_a_duty_remains_that_of_its_file(drive, tmp_path: Path):
+    """In the case of a result of ehl, also after an option."""
+    (tmp_path / "duty.csv").write_text("time [s], load [N]\n0, 20\n2e-6, 21\n")
+    case, option = tmp_path / "case.nml", "contact.radius=0.02"
+    case.write_text(
+        "&contact load = 20.0 radius = 0.01 /\n&duty file = 'duty.csv' /\n&grid points = 65 /\n"
+    )
+    (tmp_path / "resolved.nml").write_text(Case(case).text)
+    assert drive("ehl", "resolved.nml", "-o", "out", "--set", option).returncode == 0
+    assert Case(tmp_path / "out" / "case.nml").text == Case(case, option).text
+
+
 @pytest.mark.parametrize(
     ("text", "key", "value"),
     [
@@ -378,7 +390,7 @@ def test_derived_values_may_equal_their_defaults(drive, tmp_path: Path, text, ke
         (
             "&surface kind = 'fractal' rq = 6e-8 /",
             "surface.rq=1e-7",
-            "contradicts surface.rms_height",
+            "surface.rms_height",
         ),
         ("&surface finish = 'ground' /", "surface.finish='honed'", "without surface.kind"),
         ("&lubricant name = 'n100' /", "lubricant.name='n7'", "without lubricant.viscosity"),
