@@ -14,6 +14,10 @@ module ehl_case_values
    private
    public :: check_pieces, is_one_of, read_pieces
 
+   !> Keys whose values are names of files
+   character(len=name_length), parameter :: files(4) = [character(len=name_length) :: "file", "table", "profile_file", &
+                                                        "profile_file_2"]
+
 contains
 
    !> Whether other pieces have the key of a piece
@@ -119,7 +123,7 @@ contains
             end do
             if (place == 0) stat = 1
             if (place > 0) value = trim(words(place))
-         else if (piece%key == "file" .or. piece%key == "table") then
+         else if (any(piece%key == files)) then
             if (value /= "" .and. index(value, "/") /= 1 .and. .not. allocated(piece%option)) then
               value = folder_of(source%origin)//value
             end if

@@ -196,6 +196,13 @@ def test_table_of_a_profile(tmp_path, ehl):
     crown = pyehl.solve(roller(129, profile="crown", crown_radius=1.0))
     for name in ("H_c", "H_min", "P_max"):
         assert float(result[name]) == pytest.approx(float(crown[name]), rel=1e-4)
+    relative = case.text.replace(str(table), table.name)
+    assert relative != case.text
+    (tmp_path / "relative.nml").write_text(relative)
+    command = [ehl, "relative.nml", "-o", "relative", "--quiet"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    written = pyehl.Case(tmp_path / "relative" / "case.nml").resolve()
+    assert written["contact"]["profile_file"] == str(table)
     # a resolved case contains the table
     text = result.attrs["case"]
     table.unlink()
