@@ -112,7 +112,8 @@ contains
       if (.not. found%movable) path = spare_path(found%path//"/"//leftover(:len(leftover) - 1))
    end function fresh_path
 
-   !> Check again, and put the files from a folder made by `begin` in place. After a failure they are still in that folder.
+   !> Check again, and put the files from a folder made by `begin` in place. After a failure they are still in that folder, or
+   !> those that could not be moved.
    subroutine finish(self, fresh, status)
       class(destination_t), intent(in) :: self
       character(len=*), intent(in) :: fresh

@@ -164,7 +164,7 @@ contains
    end subroutine unlock_folder
 
    !> Exchange two files or folders, in one step if the file system supports that. False: nothing
-   !> has changed.
+   !> has changed, or `other` is left under a spare name.
    logical function swap_paths(one, other)
       character(len=*), intent(in) :: one, other
       character(len=:), allocatable :: backup

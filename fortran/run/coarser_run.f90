@@ -62,7 +62,7 @@ contains
       call end_coarse(self, status)
    end procedure solve_coarse
 
-   !> Keep the status of the coarser run, and its friction ratio if it converged
+   !> Keep the status of the coarser run, and its friction ratio and load share if it converged
    subroutine end_coarse(self, status)
       class(solver_t), intent(inout) :: self
       type(status_t), intent(in) :: status

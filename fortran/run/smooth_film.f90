@@ -23,7 +23,7 @@ module ehl_smooth_film
 
 contains
 
-   !> Film extrapolated from the grids of a solution [a^2/R]; 0 if its grid error is too large
+   !> Film extrapolated from the grids of a solution [a^2/R]; 0 if its grid error is too large or not known
    pure real(dp) function known_film(smooth)
       type(smooth_contact_t), intent(in) :: smooth
       real(dp) :: error(2), limit(2)

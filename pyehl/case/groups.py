@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Groups of a case other than lubricant and surfaces, key by key.
 
-The single definition of unit, allowed values, default and meaning of a key. An allowed zero means
+The single definition of unit, allowed values, default and meaning of a key. For some keys 0 means
 "not given". Fields that are not keys are set when a case is completed.
 """
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Groups of a file that describes a machine element in place of one contact, key by key.
 
-As in `pyehl.case.groups`, an allowed zero means "not given".
+As in `pyehl.case.groups`, 0 means "not given" for some keys.
 """
 
 from dataclasses import dataclass
