@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Lubricants for Python, and flow and stress with shear thinning; for the rules see ehl_f2py_solver.
 !>
-!> `law` is 1 for Eyring and 2 for Carreau with `exponent` n; B and S are those of flow_factors.f90.
+!> `law` is 1 for Eyring and 2 for Carreau, whose power-law exponent is `exponent`; B and S are those of flow_factors.f90.
 module ehl_f2py_lubricant
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: lubricant_case_t
@@ -40,8 +40,8 @@ contains
       call reply(status, stat, message)
    end subroutine properties
 
-   !> n sets of flow factors: phi_x, phi_y, and for phi_x d ln(phi)/d ln(B), d ln(phi)/d ln(S) and d(phi S)/dS; NaN where the
-   !> iteration does not converge
+   !> n sets of flow factors: phi_x, phi_y, and for phi_x d ln(phi)/d ln(B), d ln(phi)/d ln(S) and d(phi S)/dS; phi_x and phi_y are
+   !> NaN where the iteration does not converge
    subroutine flow_factors(n, law, exponent, b, gradient, found)
       integer(c_int), intent(in) :: n, law
       real(c_double), intent(in) :: exponent

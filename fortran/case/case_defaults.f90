@@ -95,7 +95,7 @@ contains
       end associate
    end subroutine complete_inlet
 
-   !> Set the kind of units, and both radii
+   !> Set whether the bodies are given, whether the contact is in SI units, and then both radii and their ratio
    subroutine complete_contact(source, input)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(inout) :: input
@@ -113,7 +113,8 @@ contains
       end associate
    end subroutine complete_contact
 
-   !> Set viscosity, pressure-viscosity coefficient and temperature dependence at the inlet from a law, and Roelands' exponent
+   !> Set density law, isotherms and range of a table, viscosity, pressure-viscosity coefficient and temperature dependence at the
+   !> inlet from a law, Roelands' exponent, and the law of &psd
    subroutine complete_lubricant(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(inout) :: input
@@ -281,7 +282,8 @@ contains
       s%amplitude_given = source%given(group//".amplitude")
    end subroutine complete_surface
 
-   !> Set the default x_start of a feature: it arrives when the roughness of the other surface, with its film, fills the contact
+   !> Set the default x_start of a feature: it approaches the contact a time `transit` after the roughness of the other surface has
+   !> filled it
    pure subroutine delay_start(s, other)
       type(surface_case_t), intent(inout) :: s
       type(surface_case_t), intent(in) :: other
@@ -296,7 +298,7 @@ contains
                   s%velocity_ratio > 0.0_dp .and. other%velocity_ratio > 0.0_dp
    end function must_wait
 
-   !> Latest start of a feature: it approaches the contact when the front of the other surface leaves it
+   !> Maximum x_start of a feature [a]: its front is at x_matters when the front of the other surface is at x_filled
    pure real(dp) function latest_start(s, other)
       type(surface_case_t), intent(in) :: s, other
       latest_start = x_matters - s%velocity_ratio*(x_filled - other%x_start)/other%velocity_ratio

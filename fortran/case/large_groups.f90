@@ -12,7 +12,7 @@ module ehl_large_groups
 
 contains
 
-   !> &lubricant
+   !> Read &lubricant from a text, or write its lines if the text is empty
    subroutine lubricant_group(v, text, lines, good)
       type(lubricant_case_t), intent(inout), target :: v
       character(len=*), intent(in) :: text
@@ -80,7 +80,7 @@ contains
       good = stat == 0
    end subroutine lubricant_group
 
-   !> &surface or &second_surface, as &surface
+   !> Likewise &surface, or &second_surface with the name &surface
    subroutine surface_group(v, text, lines, good)
       type(surface_case_t), intent(inout), target :: v
       character(len=*), intent(in) :: text

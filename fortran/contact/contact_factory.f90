@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Creates a contact from its bodies. Outside this folder no other module refers to a type of contact.
+!> Creates a contact from its bodies. Modules outside this folder do not refer to types that extend contact_t.
 module ehl_contact_factory
    use ehl_contact, only: contact_t
    use ehl_elliptical, only: new_elliptical

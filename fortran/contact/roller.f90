@@ -60,7 +60,7 @@ module ehl_roller
 
    !> Fraction of the half length at which the logarithm ends
    real(dp), parameter :: last = 0.998_dp
-   !> Gap that is added at the ends of the roller and beyond [b^2/R], and tolerance of Y for rounding
+   !> Gap that is added at the ends of the roller and beyond [b^2/R], and relative tolerance of their position for rounding
    real(dp), parameter :: open = 2.0_dp, rounding = 1.0e-9_dp
    !> Number of slices for the load distribution
    integer, parameter :: slices = 200
@@ -219,13 +219,13 @@ contains
       end associate
    end function film_formula
 
-   !> Area of the dry contact: 2 b times the length
+   !> Area of the dry contact [b^2]: its width 2 b times the length
    pure real(dp) function area(self)
       class(roller_t), intent(in) :: self
       area = 4.0_dp*self%ellipticity
    end function area
 
-   !> Area over which the mean of the Hertz pressure of the line contact is 2/3 of its maximum
+   !> Area [m^2] over which the mean of the Hertz pressure of the line contact is 2/3 of its maximum
    pure real(dp) function flash_area(self, length)
       class(roller_t), intent(in) :: self
       real(dp), intent(in) :: length

@@ -57,8 +57,8 @@ contains
       end if
    end subroutine fill_grid_kernel
 
-   !> Coefficient of a strip with one row: -2 k_b int ln|X - X'| dX' over a cell, near by the antiderivative, whose rounding error
-   !> increases as x/h, far away by three Gauss points
+   !> Coefficient of a strip with one row: -2 k_b int ln|X - X'| dX' over a cell; by the antiderivative for cells near the node, by
+   !> three Gauss points for those far from it, where the rounding error of the antiderivative would increase as x/h
    elemental real(dp) function row_coefficient(grid, factor, di)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor
@@ -70,7 +70,7 @@ contains
          if (x > far*h) then
             row_coefficient = h*(inner*log(x) + outer*(log(x - node*h) + log(x + node*h)))
          else
-            row_coefficient = whole(x + 0.5_dp*h) - whole(x - 0.5_dp*h)
+            row_coefficient = log_integral(x + 0.5_dp*h) - log_integral(x - 0.5_dp*h)
          end if
       end associate
       row_coefficient = -2.0_dp*factor*row_coefficient
@@ -88,13 +88,15 @@ contains
    end function strip_coefficient
 
    !> Coefficients of all rows of a strip by their distance: each is the sum over a cell and its periodic images; the sum of all
-   !> rows is the logarithm of row_coefficient, which fixes their mean. Far images are summed by the inverse midpoint rule,
-   !> sum f(m) = int f dm + f'/24 at its beginning, midway between two images, without terms that are constant over the rows.
+   !> rows is row_coefficient, which fixes their mean. Far images are summed by the Euler-Maclaurin formula in its midpoint form:
+   !> sum f(m) = int f dm + f'/24, where the integral and f' begin midway between two images. Terms that are constant over the rows
+   !> are omitted.
    pure function strip_column(grid, factor, di) result(around)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor
       integer, intent(in) :: di
       real(dp) :: around(0:grid%full_ny() - 1)
+      !> Number of images on each side that are summed one by one
       integer, parameter :: images = 4
       real(dp) :: x, y, u, width, tail
       integer :: j, m, near, side
@@ -122,10 +124,10 @@ contains
    end function strip_column
 
    !> Antiderivative of ln|x|, odd in x
-   elemental real(dp) function whole(x)
+   elemental real(dp) function log_integral(x)
       real(dp), intent(in) :: x
-      whole = x*(log(abs(x)) - 1.0_dp)
-   end function whole
+      log_integral = x*(log(abs(x)) - 1.0_dp)
+   end function log_integral
 
    !> The factor times the integral of 1/r over a cell of hx x hy whose centre is at
    !> (di*hx, dj*hy) from the node; even in di and in dj

@@ -5,7 +5,8 @@
 !>
 !>    G(u_k) - sum over j of g_j (G(u_j+1) - G(u_j)),   g = argmin |f_k - sum over j of g_j (f_j+1 - f_j)|,
 !>
-!> where j runs over the last few cycles. A mixed state with a larger residual than G(u_k) is rejected, and the history deleted.
+!> where j runs over the last few cycles. A mixed state with a larger residual than G(u_k) is rejected, and the history begins
+!> again with this cycle.
 module ehl_anderson
    use ehl_dense_lu, only: back_substitute, factor
    use ehl_kinds, only: dp
@@ -24,8 +25,8 @@ module ehl_anderson
    type :: anderson_t
       !> Whether cycles are mixed
       logical :: on = .false.
-      !> Number of cycles in the history
-      integer, private :: made = 0
+      !> Number of cycles since the history began; the last depth + 1 are used
+      integer, private :: cycles = 0
       !> State before the cycle, f and G(u) of the last cycle, and their differences, (nx, ny, :) and (:)
       real(dp), allocatable, private :: before(:, :), f(:, :), g(:, :), df(:, :, :), dg(:, :, :)
       real(dp), private :: h00_before = 0.0_dp, h00_g = 0.0_dp, h00_dg(depth) = 0.0_dp
@@ -54,7 +55,7 @@ contains
          return
       end if
       self%on = .true.
-      self%made = 0
+      self%cycles = 0
    end subroutine begin
 
    !> Stop mixing
@@ -85,11 +86,11 @@ contains
       integer :: columns, j, k, at
 
       if (.not. residual < huge(residual)) then
-         self%made = 0
+         self%cycles = 0
          return
       end if
-      if (self%made > 0) then
-         at = 1 + mod(self%made - 1, depth)
+      if (self%cycles > 0) then
+         at = 1 + mod(self%cycles - 1, depth)
          self%df(:, :, at) = (level%p - self%before) - self%f
          self%dg(:, :, at) = level%p - self%g
          self%h00_dg(at) = level%h00 - self%h00_g
@@ -97,8 +98,8 @@ contains
       self%f = level%p - self%before
       self%g = level%p
       self%h00_g = level%h00
-      columns = min(self%made, depth)
-      self%made = self%made + 1
+      columns = min(self%cycles, depth)
+      self%cycles = self%cycles + 1
       if (columns == 0) return
       weights(:columns) = least_squares(self, columns)
       h00 = level%h00
@@ -118,7 +119,7 @@ contains
       end if
       level%p = self%g
       level%h00 = self%h00_g
-      self%made = 1
+      self%cycles = 1
       call refresh(level)
       call update_residual(level, residual)
    end subroutine mix

@@ -52,7 +52,7 @@ contains
       if (.not. self%active) return
       do l = 1, size(rows)
          touching(l, :last) = self%touching(:last, rows(l))
-         ! yielding nodes touch as well
+         ! yielding nodes are marked as touching, too
          if (.not. any(self%touching(:last, rows(l)) > 0.0_dp)) cycle
          any_touches = .true.
          row(2:last) = residual(l, 2:last)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Viscosity by Barus 1893: ln(eta/eta0) = alpha p - beta (T - T0)
+!> Viscosity by Barus 1893: ln(eta/eta0) = alpha p - beta (T - T0), with the temperature of the inlet T0
 module ehl_barus
    use ehl_kinds, only: dp
    use ehl_viscosity_law, only: viscosity_law_t

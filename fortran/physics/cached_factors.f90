@@ -1,8 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Flow factors (factor_rows.f90) of the nodes of a grid, cached with their derivatives: near the cached sliding B and gradient
-!> S, factors and stress are extrapolated to first order, with an error below 1e-4 in addition to that of factor_rows.f90.
-!> Sweeps and cycles change most nodes by less. So factors depend on the history of the cache, until `forget`. Where the
-!> flow is Newtonian nothing is cached: memory access would take longer than the test for this case.
+!> S, factors and stress are extrapolated to first order, with an error below 1e-4 in addition to that of factor_rows.f90
+!> (more in coarse-grid corrections). Sweeps and cycles change B and S of most nodes so little that extrapolation suffices. Thus
+!> factors depend on the history of the cache, until `forget`. Where the flow is Newtonian nothing is cached: memory access would
+!> take longer than the test for this case.
 module ehl_cached_factors
    use, intrinsic :: iso_fortran_env, only: int64, real32
    use ehl_factor_rows, only: factor_rows_t, find_factors, flows_newtonian
@@ -23,7 +24,8 @@ module ehl_cached_factors
    !> B of a node without factors, different from any B >= 0: all nodes of a segment have factors, or none
    real(dp), parameter :: none = -1.0_dp
    !> Cached values of a node: B, S, phi and the stress; and in single precision, because memory bandwidth limits the speed,
-   !> derivatives of phi and of the stress: those of ln(phi_x) and ln(phi_y) with respect to ln(B), to S_x and to S_y
+   !> derivatives: those of ln(phi_x) and ln(phi_y) with respect to ln(B), to S_x and to S_y, the tangents of both directions, and
+   !> those of the stress with respect to B, S_x and S_y
    integer, parameter :: f_b = 1, f_s = 2, f_phi = 4, f_stress = 6, fields = 6
    integer, parameter :: c_by_sliding = 1, c_by_x = 3, c_by_y = 5, c_tangent = 7, c_stress_by_sliding = 9, &
                          c_stress_by_gradient = 10, change_fields = 11
@@ -213,7 +215,7 @@ contains
       if (.not. self%values(k, f_b, segment, j) > none) return
       associate (cached => self%values(k, :, segment, j), changes => self%changes(k, :, segment, j))
          s = cached(f_s:f_s + 1)
-         ! as in `store`
+         ! by_gradient is for ln|S|: divide by per_x and per_y of `store`, not by 0
          s = sign(max(abs(s), real(tiny(1.0_real32), dp)), s)
          by_gradient = [changes(c_by_x + direction - 1), changes(c_by_y + direction - 1)]*(s + min_component**2/s)
          film_exponent = 3.0_dp - changes(c_by_sliding + direction - 1) + sum(by_gradient)

@@ -3,7 +3,8 @@
 !>
 !>    eta = eta(theta) exp{p/[a1 + a2 theta + (b1 + b2 theta) p]},   theta in degC
 !>
-!> Where the bracket is not positive, which requires b1 + b2 theta < 0, the oil is solid and its viscosity infinite.
+!> Where the bracket is not positive the oil is solid and its viscosity infinite. At the temperature of the inlet, where
+!> a1 + a2 theta > 0, this requires b1 + b2 theta < 0.
 module ehl_dicke
    use ehl_ambient_viscosity, only: ambient_viscosity_t
    use ehl_kinds, only: dp

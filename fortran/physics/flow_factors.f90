@@ -3,7 +3,7 @@
 !> direction of sliding, and along Y, over that of a Newtonian lubricant with its low-shear viscosity.
 !>
 !> With xi = z/h from -1/2 to 1/2 and stresses over that of the law, the stress is tau(xi) = tau_m + xi S, where
-!> S = (h/stress) grad p. The mean stress follows from the sliding,
+!> S = (h/stress) grad p. With F of the law (thinning.f90) the mean stress tau_m follows from the sliding,
 !>
 !>    int F(|tau|) tau_x dxi = B,   int F(|tau|) tau_y dxi = 0,   B = eta |u1 - u2|/(h stress),
 !>
@@ -65,7 +65,8 @@ module ehl_flow_factors
 
 contains
 
-   !> Factors by integrals through the film for B >= 0 and a gradient S; NaN if the mean stress does not converge
+   !> Factors by integrals through the film for B >= 0 and a gradient S. If the mean stress does not converge, phi and stress are
+   !> NaN, and the derivatives those of a Newtonian lubricant.
    pure function exact_factors(law, b, gradient) result(r)
       type(thinning_t), intent(in) :: law
       real(dp), intent(in) :: b, gradient(2)

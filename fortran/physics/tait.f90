@@ -2,6 +2,8 @@
 !> Density by the equation of state of Tait, as Bair 2007 writes it for lubricants:
 !>
 !>    V/V_R = [1 + a_V (T - T_R)] {1 - ln[1 + (1 + K0') p/K0]/(1 + K0')},   K0 = K00 exp(-beta_K T) with T in K
+!>
+!> V_R is the volume at T_R and ambient pressure.
 module ehl_tait
    use ehl_density_law, only: density_law_t
    use ehl_kinds, only: dp

@@ -94,7 +94,7 @@ contains
       inlet_viscosity = exp(0.5_dp*(low + high))
    end function inlet_viscosity
 
-   !> Central film by formula at the logarithm of a viscosity [a^2/R]
+   !> Central film by formula [a^2/R] at the logarithm of a viscosity
    pure real(dp) function film_at(input, contact, scales, log_viscosity)
       type(case_t), intent(in) :: input
       class(contact_t), intent(in) :: contact

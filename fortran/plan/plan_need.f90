@@ -13,7 +13,7 @@ module ehl_plan_need
    public :: bytes_needed, check_need, frames_kept, max_periods, seconds_needed
 
    !> Bytes per stored node of the finest grid including the coarser ones, measured on 513 x 513 nodes: of the smooth contact; added
-   !> by the rough one; added by Alcouffe coarsening
+   !> by the rough one; added in time steps, which may change to Alcouffe coarsening
    real(dp), parameter :: smooth_bytes = 190.0_dp, rough_bytes = 150.0_dp, alcouffe_bytes = 120.0_dp
    !> Added by the temperatures of film and walls
    real(dp), parameter :: heat_bytes = 32.0_dp
@@ -85,13 +85,14 @@ contains
                                                      max_periods(plan))
    end function max_steps
 
-   !> Maximum number of periods of a transient run
+   !> Maximum number of common periods of a transient run
    pure real(dp) function max_periods(plan)
       type(plan_t), intent(in) :: plan
 
       associate (limit => merge(plan%max_periods, automatic_periods, plan%max_periods > 0), repeats => plan%surfaces%repeats)
          max_periods = limit
-         ! the common period of several surfaces may contain all of these periods
+         ! the limit counts periods of the slowest surface, of which a common period contains `repeats`; at least those until means
+         ! can be compared
          if (repeats > 1) max_periods = max(real(limit, dp)/repeats, periods_compared(repeats))
       end associate
       if (plan%surfaces%pass_once()) max_periods = 1.0_dp

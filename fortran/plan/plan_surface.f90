@@ -172,19 +172,19 @@ contains
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
       character(len=:), allocatable, intent(out) :: why
-      real(dp) :: moved
+      real(dp) :: cropped
 
       why = ""
       if (s%kind /= "map") then
          if (abs(s%track) > 0.0_dp) why = group//".track"
          return
       end if
-      moved = abs(s%crop_x_min) + abs(s%crop_x_max) + abs(s%crop_y_min) + abs(s%crop_y_max)
+      cropped = abs(s%crop_x_min) + abs(s%crop_x_max) + abs(s%crop_y_min) + abs(s%crop_y_max)
       if (s%detrend /= "auto" .and. s%detrend /= "none") then
          why = group//".detrend = '"//trim(s%detrend)//"'"
       else if (s%edges /= "auto" .and. s%edges /= "periodic") then
          why = group//".edges = '"//trim(s%edges)//"'"
-      else if (moved > 0.0_dp) then
+      else if (cropped > 0.0_dp) then
          why = group//".crop_x_min, crop_x_max, crop_y_min or crop_y_max"
       else if (s%outliers > 0.0_dp) then
          why = group//".outliers"

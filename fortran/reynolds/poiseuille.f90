@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The Poiseuille term d/dX (eps_x dP/dX) + d/dY (eps_y dP/dY) on one grid, in two forms: the five-point difference with
 !> arithmetic means of the conductances between nodes (Zhang et al. 2019, eqs. 7 and 8; reynolds.f90), and the nine-point
-!> Galerkin product of a finer grid's term, frozen while P and H change. No other module contains the stencil.
+!> Galerkin product of a finer grid's term, frozen while P and H change. No other module contains the five-point difference.
 module ehl_poiseuille
    use ehl_flow, only: dir_x, flow_t
    use ehl_grid, only: grid_t
@@ -42,8 +42,8 @@ module ehl_poiseuille
    type :: line_terms_t
       !> Right-hand side minus the term
       real(dp) :: rest(block_size) = 0.0_dp
-      !> Minus the sum of the couplings to other rows and the excess; derivative of the flow from these rows with respect to the
-      !> node's conductance
+      !> Minus the sum of the couplings to other rows and the excess (nine_point.f90); derivative of the flow from these rows with
+      !> respect to the node's conductance
       real(dp) :: other(block_size) = 0.0_dp, other_rate(block_size) = 0.0_dp
       !> Coupling to the next node of the row, starting with the node before the block; its derivative with respect to the
       !> conductance of either node
@@ -144,8 +144,8 @@ contains
       if (flow%depends_on_gradient) call line_of_tangents(self, flow, j, first, last, terms)
    end subroutine line_row
 
-   !> The couplings of a line system where the conductances depend on the pressure gradient; their derivatives along X and Y
-   !> differ
+   !> Coefficients of a line system where the conductances depend on the pressure gradient: the tangents replace them in the
+   !> couplings, and `other` includes the effect of P on the conductances along Y, since other_rate is for those along X
    pure subroutine line_of_tangents(self, flow, j, first, last, terms)
       type(poiseuille_t), intent(in) :: self
       class(flow_t), intent(in) :: flow
@@ -266,7 +266,7 @@ contains
          above = self%grid%north(j)
          rx = 0.5_dp*self%grid%cell(j)/self%grid%hx**2
          ry = 0.5_dp*self%grid%hx/self%grid%hy
-         ! on a folded strip the half cells below contain the coupling to the row above
+         ! the cells of the last row of a folded strip are half cells: their only coupling along Y is stored in the row below
          if (self%grid%mirror .and. above < j) ry = 0.0_dp
          if (flow%depends_on_gradient) then
             do i = 1, self%grid%nx - 1

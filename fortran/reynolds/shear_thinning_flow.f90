@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Flow of a shear-thinning lubricant:
 !>
-!>    eps_x = phi_x eps,   eps_y = phi_y eps,   eps = rho H^3/(eta lambda_bar)
+!>    eps_x = phi_x eps,   eps_y = phi_y eps,   eps = (rho/rho0) H^3/[(eta/eta0) lambda_bar]
 !>
 !> with the flow factors of physics/flow_factors.f90 at
 !>
@@ -88,7 +88,7 @@ contains
       real(dp), dimension(most) :: b, newtonian, by_density
       real(dp) :: log_eta(size(p, 1)), slope(size(p, 1)), s(most, 2)
       integer :: segment, first, n, i, k
-      logical :: without
+      logical :: is_newtonian
 
       call lubricant%log_viscosity(p(:last, j), log_eta(:last), slope(:last))
       if (last < size(p, 1)) then
@@ -107,9 +107,9 @@ contains
             newtonian(k) = rho(i)*h(i)**3/newtonian(k)*self%inverse_speed
             by_density(k) = drho_dp(i)/rho(i)
          end do
-         call self%cached%find(b(:n), s, segment, j, factors, without)
+         call self%cached%find(b(:n), s, segment, j, factors, is_newtonian)
          do k = dir_x, dir_y
-            if (without) then
+            if (is_newtonian) then
                do i = first, first + n - 1
                   self%eps(i, j, k) = newtonian(i - first + 1)
                   self%tangent(i, j, k) = newtonian(i - first + 1)

@@ -14,7 +14,8 @@ module ehl_report_roller
 
 contains
 
-   !> Report null unless there is a solution. A quantity that does not converge has no error.
+   !> Report null unless there is a solution. At a loaded end minimum film and maximum pressure do not converge on finer grids: they
+   !> have no error.
    subroutine report_roller(record, run, good)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run

@@ -110,8 +110,8 @@ contains
       if (max(share, run%smooth%results(run%level())%m%touching%load_share) > 0.0_dp) why = reason_boundary_friction
    end function why_no_friction
 
-   !> Numbers of reynolds/touching.f90 for a converged run; in time steps their means over the window of the mean friction ratio,
-   !> and the maximum depth
+   !> Numbers of reynolds/touching.f90 for a converged run; in time steps their means over the window of the mean friction ratio, or
+   !> those of a duty (report_duty.f90), and the maximum depth
    function touching_of(run) result(numbers)
       type(contact_run_t), intent(in) :: run
       real(dp) :: numbers(size(touching_names))

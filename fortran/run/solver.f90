@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Solver of a case: plan, smooth contact, rough contact, the run on the next coarser grid, results. It is the only interface of
-!> `ehl` and of the Python package to the computation.
+!> Solver of a case: plan, smooth contact, rough contact, the run on the next coarser grid, results. `ehl` and the Python package
+!> solve a case through it alone.
 module ehl_solver
    use ehl_case, only: case_t
    use ehl_write_case, only: write_case
@@ -167,7 +167,8 @@ contains
       end select
    end subroutine solve_phase
 
-   !> Start the next phase, and before the time steps or after a stationary rough contact the run on the next coarser grid
+   !> Start the next phase. The run on the next coarser grid starts before the time steps, or after a converged contact with
+   !> stationary roughness.
    subroutine next_phase(self, status)
       class(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
@@ -195,7 +196,7 @@ contains
       call self%run%plan%surfaces%take_film(film)
    end subroutine set_amplitude
 
-   !> Status of the run, which with stationary roughness ends with the coarser run
+   !> Status of the run. With stationary roughness a converged run counts as running until the coarser run has ended.
    pure integer function outcome(self)
       class(solver_t), intent(in) :: self
       outcome = self%run%outcome
@@ -280,8 +281,8 @@ contains
       call self%coarse_checkpoint%find(folder//coarser, step_text(self%input), note, status)
    end subroutine resume
 
-   !> The case as text, with defaults for the keys that change no step: end of the run, threads, prediction, output except frames. A
-   !> run may be resumed with other values of these.
+   !> The case as text, with defaults for the keys that change no step: end of the run, threads, the coarser run, prediction, output
+   !> except frames. A run may be resumed with other values of these.
    function step_text(input) result(text)
       type(case_t), intent(in) :: input
       character(len=:), allocatable :: text

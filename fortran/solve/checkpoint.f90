@@ -248,8 +248,8 @@ contains
       read (lun, iostat=stat) version
       if (stat == 0 .and. version /= magic .and. index(version, family) == 1) state_code = other_version
       close (lun)
-      ! a damaged file may have any length
       if (state_code == other_version) return
+      ! before the header is read: the length of the text in a damaged file may have any value
       if (.not. has_checksum(prefix//name)) return
       call open_checksummed(prefix//name, "read", lun, status)
       if (status%failed()) return
@@ -292,7 +292,7 @@ contains
       if (stat /= 0) text = ""
    end subroutine read_text
 
-   !> The run has resumed: later states no longer belong to the one that was read
+   !> After the run has resumed there is no state to resume from any more
    subroutine end_resuming(self)
       class(checkpoint_t), intent(inout) :: self
       if (allocated(self%path)) deallocate (self%path)

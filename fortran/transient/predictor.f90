@@ -2,8 +2,8 @@
 !> First approximation of the pressure of a time step: a weighted mean of several extrapolations in time. The weights at a node
 !> depend on their errors around it in the previous step, measured by their effect in the Reynolds equation: where the conductance
 !> is high, a small rough error gives a large residual. First-order extrapolation is for nodes where the algebraic error of a step
-!> exceeds the change per step, which second order would double. The weights vary smoothly, since steep changes between different
-!> candidates would roughen the pressure.
+!> exceeds the change per step: second order would double this error. The weights vary smoothly, since steep changes between
+!> different candidates would roughen the pressure.
 module ehl_predictor
    use ehl_kinds, only: dp
    use ehl_level, only: cavitate, level_t, stay_cavitated
@@ -136,19 +136,19 @@ contains
       end do
    end subroutine extrapolate
 
-   !> Squared errors of row j, weighted by the deflection (of the order of the error, in the squeeze term) and the flow along X that
-   !> they cause
-   pure subroutine weigh(level, j, error, weight)
+   !> Squared effect of the errors of row j in the Reynolds equation: in the squeeze term by the deflection, which is of the order
+   !> of the error, and in the Poiseuille term along X
+   pure subroutine weigh(level, j, error, effect)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
       !> Shape (nx)
       real(dp), contiguous, intent(in) :: error(:)
-      real(dp), contiguous, intent(out) :: weight(:)
-      real(dp) :: flow(size(error))
+      real(dp), contiguous, intent(out) :: effect(:)
+      real(dp) :: term(size(error))
 
-      call level%poiseuille%flow_row(level%flow, j, error, flow)
-      weight = error**2
-      weight = weight + flow**2
+      call level%poiseuille%flow_row(level%flow, j, error, term)
+      effect = error**2
+      effect = effect + term**2
    end subroutine weigh
 
    !> Weights of row j: the inverse squared errors in the neighbourhood
