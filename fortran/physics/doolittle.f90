@@ -3,9 +3,9 @@
 !>
 !>    eta = eta_R exp{B R0 [v/(V/V_R - R0 v) - 1/(1 - R0)]},   v = 1 + eps (T - T_R)
 !>
-!> v is the occupied volume over that at T_R and eps its thermal expansion; V_R and eta_R are total volume and viscosity at T_R and
-!> ambient pressure, R0 is the occupied fraction of V_R there. Where the free volume V/V_R - R0 v is not positive the oil is solid and
-!> its viscosity infinite.
+!> v is the occupied volume over that at T_R, and eps its thermal expansion; V_R and eta_R are total volume and viscosity at T_R
+!> and ambient pressure, R0 is the occupied fraction of V_R there. Where the free volume V/V_R - R0 v is not positive the oil is
+!> solid and its viscosity infinite.
 module ehl_doolittle
    use ehl_kinds, only: dp
    use ehl_tait, only: tait_t
