@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from pyehl.plots import style
-from pyehl.plots import surface as panels
+from pyehl.plots import surface as surface_plots
 from pyehl.plots.style import COLUMN, GREY, PAGE, new_figure, styled
 from pyehl.surfaces import Topography, psd_isotropic
 from pyehl.types import Array, Indices, Mask
@@ -64,7 +64,10 @@ class Series:
 
 @styled()
 def friction_over_film(panels: Sequence[tuple[str, Sequence[Series]]]) -> Figure:
-    """Draw mu_r/mu_s over H_c/A_i, a panel for each scheme (Fig. 3)."""
+    """Draw mu_r/mu_s over H_c/A_i, a panel for each ``time.scheme`` (Fig. 3).
+
+    H_c is the central film of the smooth contact, A_i the amplitude of the undeformed wave.
+    """
     figure = new_figure(PAGE, 3.4)
     axes = np.atleast_1d(figure.subplots(1, len(panels), sharey=True))
     for mark, ax, (title, series) in zip("abcd", axes, panels, strict=False):
@@ -82,14 +85,14 @@ def _points(ax: Axes, series: Sequence[Series], *, lines: bool) -> None:
     lengths = sorted({s.wavelength for s in series})
     for s in series:
         k = lengths.index(s.wavelength)
-        style: dict[str, Any] = {
+        marks: dict[str, Any] = {
             "ms": 3,
             "lw": 0.7,
             "color": COLOURS[k],
             "mfc": "none",
             "label": s.label,
         }
-        ax.plot(s.place, s.friction, f"{MARKERS[k % 3]}{'-' * lines}", **style)
+        ax.plot(s.place, s.friction, f"{MARKERS[k % 3]}{'-' * lines}", **marks)
 
 
 def _legend_of_waves(figure: Figure, ax: Axes) -> None:
@@ -190,11 +193,14 @@ def flow(steps: Sequence[Step]) -> Figure:
 
 @styled()
 def spectrum(topography: Topography) -> Figure:
-    """Draw a surface, its two-dimensional spectrum, and the radial mean (Fig. 5)."""
+    """Draw a surface, its two-dimensional spectrum, and the radial mean (Fig. 5).
+
+    A line with the slope of a Hurst exponent of 0.8 passes through a point of the mean.
+    """
     figure = style.new_figure(PAGE, 2.2)
     axes = figure.subplots(1, 3)
-    panels.heights(topography, ax=axes[0])
-    panels.spectrum_map(topography, ax=axes[1])
+    surface_plots.heights(topography, ax=axes[0])
+    surface_plots.spectrum_map(topography, ax=axes[1])
     q, c_iso = psd_isotropic(topography)
     shown = c_iso > 0.0
     axes[2].loglog(q[shown], c_iso[shown], "o", ms=2.5, color=style.BLUE, label=r"$C^{iso}$")
@@ -209,7 +215,7 @@ def spectrum(topography: Topography) -> Figure:
 
 @styled()
 def deformed(x: Array, y: Array, inside: Mask, fields: Mapping[str, Array]) -> Figure:
-    """Draw roughness fields on one scale, their height distributions and centre lines (Fig. 6).
+    """Draw roughness fields, their height distributions and profiles on Y = 0 (Fig. 6).
 
     Coordinates (nx,), (ny,) [a]; drawn nodes `inside` (nx, ny); heights (nx, ny) [m] by name, the
     undeformed ones first, then the simulation.

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Changes of many models in one message to the browser.
 
-Bokeh sends a message for each property, and the browser repaints after each: every picture several
-times for one result.
+If properties are set one by one, Bokeh sends a message for each, and the browser repaints after
+each message: a result would repaint every picture several times.
 """
 
 from typing import Any

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The server of the page, which accepts requests of this machine only."""
+"""The server of the page, which accepts requests from this machine only."""
 
 import logging
 import re
@@ -21,7 +21,7 @@ from pyehl.errors import InputError
 
 ADDRESS = "127.0.0.1"
 HOSTS = (ADDRESS, "localhost")
-"""Names of this machine in a browser; any other name was rebound to the loopback by an attacker."""
+"""Names of this machine in a browser; another one is refused, as an attack by DNS rebinding."""
 # Lifetime of the session of a closed tab, and interval of the checks [ms]. A shorter lifetime would
 # end sessions whose browser still waits to connect, and their pages would be made twice.
 UNUSED, LOOK = 30_000, 3000
@@ -45,7 +45,8 @@ def make_server(
 ) -> Server:
     """Make a server that is already listening; port 0: any free port.
 
-    `made` is called with each page. InputError if the port is taken.
+    Each page begins at `start` and shows `note`; `made` is called with it. InputError if the server
+    cannot listen at the port.
     """
 
     def page(document: Document) -> None:
@@ -87,7 +88,7 @@ def serve(
     browser: bool = True,
     say: Callable[[str], object] = print,
 ) -> None:
-    """Serve the page until it is interrupted. InputError if the port is taken."""
+    """Serve the page until it is interrupted. InputError if it cannot listen at the port."""
     server = make_server(start, note, port)
     address = f"http://{ADDRESS}:{server.port}/"
     say(f"{address}  (Ctrl-C ends it)")

@@ -13,8 +13,8 @@ from pyehl.display import with_error
 from pyehl.theory.moes_film import regime
 
 NM = 1e9
-# Film ratios below which asperities touch, and above which a film is thick
-TOUCHING, THICK = 1.0, 3.0
+# Film ratios below which a film is thinner than the roughness, and from which it is thick
+THIN, THICK = 1.0, 3.0
 
 
 def status_line(result: Film) -> str:
@@ -122,7 +122,7 @@ def rough_rows(result: Rough, film: Film | None = None) -> list[tuple[str, str]]
 
 
 def _lambda(ratio: float) -> str:
-    if ratio < TOUCHING:
+    if ratio < THIN:
         return "thinner than the roughness, which the contact flattens"
     return "thick film" if ratio >= THICK else "film of the order of the roughness"
 

@@ -26,7 +26,7 @@ def resolve(
 ) -> str:
     """Resolve a case: check it, and write every value of it as namelist text.
 
-    `text` is that of a file `origin`, for messages and for relative names of maps; `from_file`
+    `text` is that of a file `origin`, for messages and for relative names of files; `from_file`
     reads that file instead. `options` replace values. InputError with file, line and column, what
     was expected, and the nearest name.
     """
@@ -59,7 +59,7 @@ class Case:
     Attributes
     ----------
     text
-        Resolved namelist text with every value, names of maps made absolute.
+        Resolved namelist text with every value, names of files made absolute.
 
     Raises
     ------
@@ -159,7 +159,7 @@ class Case:
         return f"Case({', '.join(facts)})"
 
     def _repr_html_(self) -> str:
-        """Draw all groups and their values, for notebooks."""
+        """Give all groups and their values as an HTML table, for notebooks."""
         groups = self.resolve()
         rows = {
             f"{group}.{key}": value for group, keys in groups.items() for key, value in keys.items()
@@ -198,7 +198,7 @@ def exchanged(case: Case) -> Case:
     rough = {"rough_surface": 3 - values["contact"]["rough_surface"]}
     groups["contact"] = groups.get("contact", {}) | rough
     second = values.get("second_surface", {"kind": "smooth"})
-    # with all values, of which the rms height states Ra and Rq
+    # all values, but not Ra and Rq: the rms height follows from them, and is among the values
     for group, keys in (("surface", second), ("second_surface", values["surface"])):
         groups[group] = {key: value for key, value in keys.items() if key not in ("ra", "rq")}
     return Case.from_text(namelist.text_of(groups), origin="case with its surfaces exchanged")

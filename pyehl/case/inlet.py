@@ -78,6 +78,7 @@ def check(draft: Draft) -> None:
 
 
 def _agree(draft: Draft, one: str, other: str, value: float, follows: float) -> None:
+    """Refuse two keys if the value of `one`, unless 0, differs from that which follows."""
     if value > 0.0 and abs(value - follows) > ROUNDING * value:
         draft.contradict(one, other, "one of the two")
 

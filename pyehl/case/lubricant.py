@@ -38,7 +38,7 @@ def complete_oil(draft: Draft) -> None:
             setattr(oil, constant.key, constant.value)
     if not draft.is_given("lubricant", "viscosity_law") and oil.own_law:
         oil.viscosity_law = oil.own_law
-    # its constants were determined with that law
+    # the constants of Doolittle's law were determined with Tait's volumes
     if not draft.is_given("lubricant", "density_law") and oil.own_law == "doolittle":
         oil.density_law = "tait"
     oil.inlet_law = oil.own_law if oil.own_law != oil.viscosity_law else ""
@@ -253,9 +253,10 @@ def check_shear_law(draft: Draft) -> None:
 
 
 def check_boundary_film(draft: Draft) -> None:
-    """Refuse a boundary film without SI units or with Alcouffe coarsening; keys that need one.
+    """Refuse a boundary film without SI units or with Alcouffe coarsening.
 
-    A hardness must exceed the Hertz pressure.
+    Also refuse boundary friction or a hardness without a boundary film, and a hardness that does
+    not exceed the Hertz pressure.
     """
     settings = draft.settings
     film, friction = settings.lubricant.boundary_film, settings.lubricant.boundary_friction
@@ -396,7 +397,10 @@ def check_heat(draft: Draft) -> None:
 
 
 def _need(draft: Draft, key: str, value: str, velocity: str, others: tuple[str, str]) -> None:
-    """Refuse a key without a velocity in m/s, or without the viscosity by temperature."""
+    """Refuse a key without a velocity in m/s, or without the viscosity by temperature.
+
+    `others`: values of the key that need neither, for the two messages.
+    """
     name = f"lubricant.{key}"
     if not draft.settings.contact.si:
         contact = "a contact given by moes_m and moes_l"

@@ -90,7 +90,7 @@ class Source:
         return self.text.count("\n", 0, position) + 1
 
     def check_characters(self) -> None:
-        """Refuse control characters."""
+        """Refuse control characters other than tabs and line ends."""
         if (match := NO_TEXT.search(self.text)) is not None:
             code = ord(match[0])
             what = f"this is not a text file (byte {code})"
@@ -114,7 +114,8 @@ class Source:
     def refuse(self, first: int, end: int, what: str, expected: str) -> NoReturn:
         """Refuse text[first:end]: InputError with a message of four lines.
 
-        ``name:line:column: error: what``; the line; carets under the error; what was expected.
+        ``name:line:column: error: what``, line and column only if it `has_lines`; the line; carets
+        under the error; what was expected.
         """
         start = self.text.rfind("\n", 0, first) + 1
         finish = self.text.find("\n", start)

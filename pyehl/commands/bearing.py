@@ -11,5 +11,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl bearing``; 0 done, 1 a contact has no result, 2 bad input."""
+    """Run ``pyehl bearing``; returns 0 done, 1 a contact has no result, 130 interrupted."""
     return execute_machine(args, "bearing", ("ball_bearing", "roller_bearing"))

@@ -11,5 +11,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl gear``; 0 done, 1 a contact has no result, 2 bad input."""
+    """Run ``pyehl gear``; returns 0 done, 1 a contact has no result, 130 interrupted."""
     return execute_machine(args, "gear", ("spur_gear",))

@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def report(oil: Oil, temperature: float) -> str:
-    """Return the printed lines of an oil."""
+    """Return the printed lines of an oil at a temperature [degC]."""
     at = oil.at(temperature)
     coefficients = (
         f"alpha = {1e9 * at.pressure_viscosity:.2f}/GPa at ambient pressure, alpha* = "

@@ -23,7 +23,10 @@ PROGRESS_INTERVAL = 2.0
 
 
 class _Printer:
-    """Prints lines; if the output fails during a run, the run continues silently."""
+    """Prints lines; if the output fails after the first one, a run continues without them.
+
+    A closed pipe, and a failure at the first line, are raised.
+    """
 
     def __init__(self) -> None:
         self.lines = 0
@@ -85,8 +88,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(args: argparse.Namespace) -> int:
     say = _Printer()
-    words: dict[str, Any] = {} if args.quiet else {"say": say, "advanced": _display(say)}
-    words["force"] = args.force
+    options: dict[str, Any] = {} if args.quiet else {"say": say, "advanced": _display(say)}
+    options["force"] = args.force
     if args.resume is not None:
         if args.resume == "":
             raise InputError("pyehl run: error: the folder after --resume has no name")
@@ -97,7 +100,7 @@ def execute(args: argparse.Namespace) -> int:
             case,
             options=args.overrides,
             inputs=() if args.case is None else (args.case,),
-            **words,
+            **options,
         )
         return _status(done, say)
     if args.case is None or args.output is None:
@@ -107,4 +110,4 @@ def execute(args: argparse.Namespace) -> int:
             "expected: pyehl run CASE.nml -o DIR, or pyehl run --resume DIR"
         )
     case = Case(args.case, args.overrides)
-    return _status(run(case, args.output, inputs=(args.case,), **words), say)
+    return _status(run(case, args.output, inputs=(args.case,), **options), say)

@@ -151,7 +151,7 @@ def _beside(path: Path) -> tuple[Path, Path]:
     return path.with_name(f"{path.name}.nml"), path.with_name(f"{path.name}.png")
 
 
-def _seal(path: Path) -> str:
+def _checksum_line(path: Path) -> str:
     """Checksum of a tile, as a line of its case."""
     with path.open("rb") as stream:
         digest = hashlib.file_digest(stream, "sha256").hexdigest()
@@ -164,7 +164,7 @@ def _check(path: Path, inputs: Sequence[str], plots: bool) -> None:
     check_files([beside, picture] if plots else [beside], "surface", inputs)
 
     def known(tile: Path) -> bool:
-        return beside.is_file() and made_by(beside, _seal(tile))
+        return beside.is_file() and made_by(beside, _checksum_line(tile))
 
     check_files([path], "surface", inputs, known=known)
 
@@ -176,7 +176,10 @@ def _write(
     conditions: tuple[float, float, float, str] | None,
     plots: bool,
 ) -> list[Path]:
-    """Write the tile, a case for it, and the picture; returns their names."""
+    """Write the tile, a case for it, and the picture; returns their names.
+
+    `conditions` as in :func:`pyehl.plots.surface.before_and_after`.
+    """
     beside, picture = _beside(path)
     written = [write_map(surface, path), beside]
     size = {"surface.length_x": surface.length_x, "surface.length_y": surface.length_y}
@@ -186,7 +189,7 @@ def _write(
     # a relative name: the folder may be moved
     text = text.replace(f"'{name}'", "'" + path.name.replace("'", "''") + "'")
     with new_file(beside) as fresh:
-        fresh.write_text(MADE + _seal(path) + text, encoding="utf-8")
+        fresh.write_text(MADE + _checksum_line(path) + text, encoding="utf-8")
     if plots:
         from pyehl.plots.style import save  # noqa: PLC0415
         from pyehl.plots.surface import before_and_after  # noqa: PLC0415 (slow to import)

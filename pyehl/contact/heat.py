@@ -20,8 +20,8 @@ from pyehl.types import Array, Mask, Settings
 class HeatOf:
     """Frictional heating on the nodes x (m,), y (n,) [a] of a resolved case.
 
-    Computed as in a run (``fortran/reynolds/heated_friction.f90``); `even`: the rows are those of
-    Y >= 0.
+    Computed as in a run (``fortran/reynolds/heated_friction.f90``); `even`: y are the nodes with
+    Y >= 0 of a symmetric contact.
     """
 
     settings: Settings
@@ -31,7 +31,7 @@ class HeatOf:
     even: bool = False
 
     def __call__(self, pressure: Array, film: Array, touching: Mask) -> Heat:
-        """Return it for P [p_h], H [a^2/R] and the nodes in solid contact, (m, n) each."""
+        """Return the heating for P [p_h], H [a^2/R] and the nodes in solid contact, (m, n) each."""
         law = {"viscosity_law": self.lubricant.viscosity_law}
         groups = {
             "contact": self.settings["contact"],
@@ -59,7 +59,10 @@ class HeatOf:
 
 
 def mean_heat(parts: Sequence[Heat], weights: Sequence[float]) -> Heat:
-    """Heating of a rough contact over its positions: mean friction ratio, maximum increases."""
+    """Heating of a rough contact over its positions: mean friction ratio, maximum increases.
+
+    `weights` are those of the positions in the mean.
+    """
     ratio = float(np.average([part.ratio for part in parts], weights=weights))
     first, second, third = (float(v) for v in np.max([part.rises for part in parts], axis=0))
     note = parts[0].note if math.isfinite(ratio) else NOT_CONVERGED

@@ -51,7 +51,7 @@ class Outline:
 
     @property
     def reach(self) -> tuple[float, float]:
-        """Half extents along x and y."""
+        """Half extents along x and y [a]."""
         c, s = math.cos(math.radians(self.angle)), math.sin(math.radians(self.angle))
         return math.hypot(c, self.ellipticity * s), math.hypot(s, self.ellipticity * c)
 
@@ -69,12 +69,16 @@ class Outline:
 
     @property
     def box(self) -> tuple[float, float]:
-        """Half extents to the right and up in a picture."""
+        """Half extents to the right and up in a picture [a]."""
         along, across = self.reach
         return (across, along) if self.turned else (along, across)
 
     def view(self, margin: float) -> tuple[float, float]:
-        """Half width and half height of a map with a margin [a], which is not too flat."""
+        """Half width and half height of a map [a], `margin` times those of the contact.
+
+        A roller has no margin at its ends. The map of an ellipse is at least FLATTEST times as
+        high as wide.
+        """
         wide, high = (margin * reach for reach in self.box)
         if self.ends:
             # a roller ends with its domain
@@ -82,7 +86,7 @@ class Outline:
         return wide, max(high, FLATTEST * wide)
 
     def shape(self, margin: float) -> float:
-        """Height over width of a map."""
+        """Height over width of a map [-]; of a roller not below FLATTEST_ROLLER."""
         wide, high = self.view(margin)
         return max(high / wide, FLATTEST_ROLLER) if self.ends else high / wide
 
@@ -92,7 +96,7 @@ class Outline:
 
     @property
     def chords(self) -> tuple[float, float]:
-        """Half of its width on the x axis and on the y axis; of a roller infinite on the y axis."""
+        """Half of its width on the x and on the y axis [a]; of a roller infinite on the y axis."""
         if self.ends:
             return 1.0, math.inf
         c, s = math.cos(math.radians(self.angle)), math.sin(math.radians(self.angle))
@@ -108,7 +112,7 @@ class Outline:
         return np.asarray(along**2 + across**2 <= 1.0)
 
     def patch(self, radius: float, **style: Any) -> Patch:  # noqa: ANN401
-        """Draw it, `radius` being a in the unit of the axes."""
+        """Make a patch of it, `radius` being a in the unit of the axes."""
         size = 2.0 * radius, 2.0 * self.ellipticity * radius
         # x and y change places: a reflection
         size, angle = (size[::-1], -self.angle) if self.turned else (size, self.angle)

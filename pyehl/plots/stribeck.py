@@ -50,9 +50,9 @@ def draw_stribeck(
 ) -> Figure:
     """Draw friction over the varied key, a coefficient or a ratio mu_r/mu_s.
 
-    `conditions` go into the metadata of a file, with a description of an empirical `law`. Measured
-    friction is drawn in the same axes, and with a ratio the curve of Zhang et al. 2019. A single
-    curve has Lambda on an upper axis.
+    `conditions` go into the metadata of a file, with the end of full film and a description of an
+    empirical `law`. Measured friction is drawn in the same axes, and with a ratio the curve of
+    Zhang et al. 2019. A single curve with monotonic Lambda has it on an upper axis.
     """
     absolute, key = curves[0].absolute, curves[0].key
     # two surfaces have load shares of full simulations only
@@ -91,7 +91,7 @@ def draw_stribeck(
 
 
 def _named(curve: Curve) -> str:
-    """Label of a curve; '' for a single one."""
+    """Label of a curve, its keys as on the axes; '' for a single one."""
     name = curve.label
     for key, words in LABELS.items():
         name = name.replace(key, words)
@@ -159,15 +159,18 @@ def _draw_curve(ax: Axes, curve: Curve, colour: str) -> None:
 
 
 def _shade(ax: Axes, curves: Sequence[Curve]) -> None:
-    """Shade film breakdown, up to half-way to the first point of full film."""
+    """Shade mixed film and film breakdown, on each side half-way to the next point of full film.
+
+    On a side without one, to the limit of the axis.
+    """
     for curve in curves:
         x = curve.places
-        ends = np.isin(np.arange(x.size), curve.broken)
-        broken = ends & np.isfinite(x)
+        no_full_film = np.isin(np.arange(x.size), curve.broken)
+        broken = no_full_film & np.isfinite(x)
         if not broken.any():
             continue
         low, high = float(x[broken].min()), float(x[broken].max())
-        others = x[~ends & np.isfinite(x) & np.isfinite(curve.friction())]
+        others = x[~no_full_film & np.isfinite(x) & np.isfinite(curve.friction())]
         above = others[others > high]
         if above.size:
             high = _middle(ax, high, float(above.min()))
@@ -183,7 +186,7 @@ def _middle(ax: Axes, low: float, high: float) -> float:
 
 
 def _draw_eq_16(ax: Axes, curves: Sequence[Curve]) -> None:
-    """Draw the ratio of harmonic waves at theta_2 of each point; the limits of the axes stay."""
+    """Draw eq. 16 of Zhang et al. 2019 at theta_2 of each point; the limits of the axes stay."""
     limits = ax.get_ylim()
     for curve in curves:
         theta = curve.column("theta_2")
@@ -251,7 +254,7 @@ def draw_traction(
     axes = figure.subplots(2 if warm else 1, 1, sharex=True, squeeze=False)[:, 0]
     for curve, colour in zip(curves, style.COLOURS * 9, strict=False):
         slip = curve.places
-        resting = slip == 0.0
+        rolling = slip == 0.0
         for name, line, words in (
             ("mu", "o-", "with heat" if warm else "friction"),
             ("mu_isothermal", ":", "isothermal"),
@@ -259,7 +262,7 @@ def draw_traction(
         ):
             if name not in curve.table or (name == "mu_isothermal" and not warm):
                 continue
-            mu = np.where(resting, 0.0, curve.column(name))
+            mu = np.where(rolling, 0.0, curve.column(name))
             known = np.isfinite(mu)
             axes[0].plot(
                 slip[known],
@@ -269,7 +272,7 @@ def draw_traction(
                 label=(name == "mu" and _named(curve)) or words,
             )
         if warm:
-            rise = np.where(resting, 0.0, curve.column("temperature_rise_max_K"))
+            rise = np.where(rolling, 0.0, curve.column("temperature_rise_max_K"))
             known = np.isfinite(rise)
             axes[1].plot(slip[known], rise[known], "o-", ms=3, lw=1.2, color=colour)
     if measured is not None:

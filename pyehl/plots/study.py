@@ -39,7 +39,10 @@ class Line(NamedTuple):
 def study_figure(
     panels: Sequence[tuple[str, Sequence[Line]]], abscissa: str, conditions: str
 ) -> Figure:
-    """Draw a panel for each result, given as its label and its lines, over an abscissa."""
+    """Draw a panel for each result, given as its label and its lines, over an abscissa.
+
+    `abscissa` is its label; `conditions` go into the metadata of a file.
+    """
     figure = new_figure(COLUMN if len(panels) == 1 else PAGE, 2.5)
     axes = figure.subplots(1, len(panels), squeeze=False)[0]
     for ax, (label, lines) in zip(axes, panels, strict=True):

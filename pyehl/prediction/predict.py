@@ -109,8 +109,8 @@ PER_POINT = 1e-4
 REPORTED = 10.0
 """Time above which it is reported [s]."""
 BRIEF = 0.36
-"""Time of a prediction without tracks and bands, as for other spectra, over that with them: 0.3 to
-0.4 with cases/finish.nml and a gear flank."""
+"""Time of a prediction without tracks and with one band, as for other spectra, over that with all:
+0.3 to 0.4 with cases/finish.nml and a gear flank."""
 SMALL = 0.02
 """Length and width of a map over those of the contact below which a larger map is recommended."""
 ENOUGH = 3.0
@@ -122,7 +122,7 @@ def seconds_of(tile: Topography, operating: AnyContact) -> float:
     a = operating.hertz_radius
     sides = list(zip(tile.shape, tile.size, (a, a * operating.ellipse.side), strict=True))
     pixels = math.prod(max(n, size / a * WORKING_PIXELS) for n, size, a in sides)
-    # points in the contact, at least as many as tiles across the motion
+    # points in the contact, not farther apart than the sides of the tile
     area = operating.dry_area * (tile.length_y if operating.ellipse.is_line else 1.0)
     points = area / min(a / PIXEL_POINTS, *tile.size) ** 2
     return PER_PIXEL * pixels + PER_POINT * points
@@ -213,7 +213,7 @@ def unpredictable(settings: Settings) -> str:
 
 
 def oblique(settings: Settings) -> str:
-    """Say why an ellipse has no response; '' if an axis lies along the motion."""
+    """Say why an ellipse has no response; '' if it is a circle, or contact.angle is 0."""
     angle = float(settings["contact"].get("angle", 0.0))
     if angle == 0.0 or contact_of(settings).radius_ratio == 1.0:
         return ""
@@ -242,15 +242,15 @@ def predict(
     """Predict the relative friction of a resolved case, also given as namelist `text`.
 
     `tracks` across the surface, 1 to `MAX_TRACKS`, are for mean and spread, not used for a line;
-    `smooth` is a result folder with the smooth contact, otherwise it is solved; `surface` and
-    `second_surface` are surfaces before their spectrum is cut and before they are moved to their
-    track, by default those of the case. `brief`: mu_r/mu_s and its errors, bit for bit the same,
-    but no tracks, only the band of the shortest waves, no search for a cut-off with which there is
-    a ratio, and no other spectra.
+    `smooth` is a result folder with the smooth contact, otherwise `psd.smooth` applies; `surface`
+    and `second_surface` are surfaces before their spectrum is cut and before they are moved to
+    their track, by default those of the case. `brief`: mu_r/mu_s and its errors, bit for bit the
+    same, but no tracks, only the band of the shortest waves, no search for a cut-off with which
+    there is a ratio, and no other spectra.
 
     InputError if the surface is smooth or a single feature, a map is not usable, the conditions
-    are outside the model, or there are too many tracks; OSError if a map cannot be opened; EhlError
-    if the smooth contact does not converge.
+    are outside the model, or the number of tracks is out of range; OSError if a map cannot be
+    opened; EhlError if the smooth contact does not converge.
     """
     start = time.perf_counter()
     refuse_duty(settings)
@@ -395,7 +395,7 @@ def _contact(
     options: ModelOptions,
     folder: str | os.PathLike[str] | None,
 ) -> SmoothContact:
-    """Pressure and film under the roughness, from a result folder if one is given."""
+    """Pressure and film of the smooth contact, from a result folder if one is given."""
     if folder is not None:
         contact = read_contact(Path(folder), operating, settings)
         if lubricant.shear.in_flow:

@@ -82,8 +82,9 @@ class Spectrum:
     ) -> Array:
         """Heights (refinement nx, ny/stride) of the tile with its components times a factor.
 
-        In the precision of both. With `lines` (ny, n), the result of :meth:`on_lines`, on these
-        lines: (refinement nx, n).
+        `factor` (nx//2 + 1, ny); the heights are in the precision of it and of the components.
+        With a `stride`, every stride-th column. With `lines` (ny, n), the result of
+        :meth:`on_lines`, on these lines: (refinement nx, n).
         """
         result = self.along(factor, refinement, stride, lines)
         return np.asarray(np.fft.irfft(result, n=self.shape[0] * refinement).T)
@@ -97,7 +98,7 @@ class Spectrum:
     ) -> NDArray[np.complexfloating[Any, Any]]:
         """Waves along the motion (n, nx//2 + 1) on each column or line of :meth:`tile`.
 
-        Ordered for a transform of refinement nx heights.
+        Scaled for an inverse transform to refinement nx heights.
         """
         nx, ny = self.shape
         part = self.values * factor
@@ -108,7 +109,7 @@ class Spectrum:
         if lines is not None:
             return np.asarray((lines.T @ part.T) * (refinement / ny))
         if stride > 1:
-            # with a stride, waves that differ by its wavenumber are equal
+            # aliasing: waves that differ by the wavenumber of the stride are equal on its columns
             part = part.reshape(part.shape[0], stride, -1).sum(axis=1)
         across = np.ascontiguousarray(np.fft.ifft(part, axis=1).T)
         across *= refinement / stride
@@ -126,7 +127,7 @@ class Spectrum:
         return share if share > 1e-24 else 0.0
 
     def amplitudes(self, i: Indices, j: Indices, factor: Complex | float = 1.0) -> Complex:
-        """Amplitudes (m,) of the plane waves at rows and columns of `values`, times a factor."""
+        """Amplitudes (m,) [a^2/R] of the waves at rows and columns of `values`, times a factor."""
         nx, ny = self.shape
         # a component includes its conjugate at -q, unless the half spectrum contains both
         twice = np.where((i == 0) | ((nx % 2 == 0) & (i == nx // 2)), 1.0, 2.0)
@@ -174,7 +175,9 @@ def longer_waves(
 
 
 def working_grid(topography: Topography, operating: AnyContact, positions: int) -> Topography:
-    """Return the tile on a grid that resolves the contact, with enough pixels for the positions.
+    """Return the tile on a grid that resolves the contact.
+
+    Its pixels along x are a multiple of `positions`, 0: of a default.
 
     InputError if that takes too many pixels.
     """
@@ -196,8 +199,9 @@ def working_grid(topography: Topography, operating: AnyContact, positions: int) 
     return resampled(topography, (want_x, want_y))
 
 
-# Numbers of wavenumbers and directions: the interpolated T has an error of 1e-3. Both are odd, as
-# are those of the coarse tables, which have every second one
+# Numbers of wavenumbers and directions: the interpolated response T, deformed over undeformed
+# amplitude, has an error of 1e-3. Both are odd, as are those of the coarse tables, which have every
+# second one
 TABLE = (73, 25)
 # Number of components that are interpolated at a time, which fit into the cache
 BLOCK = 1 << 12
@@ -237,8 +241,9 @@ class WaveTable:
     def gathered(self, power: Array, times: int = 1) -> Array:
         """Sum the powers of the components of a tile at the entries of a coarse table, (l,).
 
-        Weighted as in a linear interpolation between the entries. `times`: number of coarsenings,
-        each of which omits every second wavenumber and direction.
+        `power` (nx//2 + 1, ny). Each component counts at the nearest entry of the fine table; those
+        are weighted as in a linear interpolation between the coarse ones. `times`: number of
+        coarsenings, each of which omits every second wavenumber and direction.
         """
         half = self._shape[1]
         folded = power[:, :half].copy()
@@ -347,9 +352,9 @@ def joining(
 ) -> list[Band]:
     """Return the contribution of each octave added to all longer ones; `brief`: of the last one.
 
-    `waves` are arrays of the same shape: |q| [1/a], mean square height [a^4/R^2], |T| [-], pressure
-    over roughness [p_h R/a^2]. `below` gives mu_r/mu_s of the waves with |q| below a limit [1/a],
-    `total` is that of all waves.
+    `waves` are arrays of the same shape: |q| [1/a], mean square height [a^4/R^2], |T| [-] (see
+    `TABLE`), pressure over roughness [p_h R/a^2]. `below` gives mu_r/mu_s of the waves with |q|
+    below a limit [1/a], `total` is that of all waves.
     """
     q, power, deformed, pressure = waves
     a, film, p_h = operating.hertz_radius, operating.film_scale, operating.hertz_pressure

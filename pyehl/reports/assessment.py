@@ -76,7 +76,7 @@ def _predicted(s: Values) -> dict[str, str]:
 
 
 def assess(summary: Values) -> Assessment:
-    """Assess a result as its last lines do."""
+    """Assess a result as the last of its printed lines does."""
     conclusion = conclude(summary)
     word, _, why = _signs(conclusion.assessment).partition(": ")
     hint = ""

@@ -16,6 +16,7 @@ OPTIONS = (
     "--disable-component-update --disable-sync --no-pdf-header-footer"
 ).split()
 PATIENCE = 120.0
+"""Maximum time of a print [s]."""
 
 
 def browser() -> str:

@@ -50,14 +50,17 @@ def processors() -> int:
 
 
 def check_jobs(jobs: int) -> None:
-    """Refuse an invalid number of worker processes."""
+    """Refuse an invalid number of worker processes; 0 stands for the number of processors."""
     check_kind(jobs, int, "jobs", "a number of worker processes")
     if jobs < 0:
         raise InputError(f"jobs = {jobs}: expected a number of worker processes")
 
 
 class Queue:
-    """Waiting tasks, the longest first; those that share work stay with one worker."""
+    """Waiting tasks, the longest first; those that share work form a group, for one worker.
+
+    When every group has a worker, an idle one takes from that with the most tasks.
+    """
 
     def __init__(self, tasks: Sequence[Task]) -> None:
         self._groups: dict[str, deque[Task]] = {}
@@ -67,13 +70,16 @@ class Queue:
         self._again: deque[Task] = deque()
 
     def take(self, last: str) -> list[Task]:
-        """Give a task, or some short ones, to a worker whose last task was in the group `last`."""
+        """Give a task, or some short ones, to a worker whose last task was in the group `last`.
+
+        Empty if no task waits.
+        """
         if self._again:
             return [self._again.popleft()]
         result: list[Task] = []
         while self._groups and len(result) < MAX_TASKS and sum(t.seconds for t in result) < SHORT:
             if last not in self._groups:
-                # a new group, or part of the longest one
+                # a new group, or part of that with the most tasks
                 last = (
                     self._free.popleft()
                     if self._free
@@ -180,7 +186,7 @@ def _keep(executor: ProcessPoolExecutor) -> None:
     """Keep an executor for the next study, for `KEPT` seconds.
 
     The timeout of loky is not used: with it, loky does not notice the death of a worker that
-    replaced one.
+    replaced another one.
     """
 
     def end() -> None:

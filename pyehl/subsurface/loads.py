@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 # Poisson ratio of steel, for cases without the group bodies
 DEFAULT_POISSON = 0.3
 MAX_FRICTION = 2.0
-# Criteria of a step: traction at the edge over the largest one, and over that of the next node
+# Criteria of a step: traction at the edge over the largest one, and over that one node inside
 STEP, FLAT = 0.1, 0.85
 
 
@@ -43,7 +43,7 @@ class Load:
 
     time: float  # [a/u]; NaN for a smooth contact
     pressure: Array  # (nx, ny) [p_h]
-    traction: Array | None  # along x (nx, ny) [p_h]
+    traction: Array | None  # along x (nx, ny) [p_h]; None without friction
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,7 +187,8 @@ class Traction:
     """Traction on the body from pressure [p_h] and film [m].
 
     `smooth`: pressure and film of the smooth contact (nx, ny); `area` of a node and `width` of the
-    grid across the motion [a^2, a]; `result`: that of `friction_of`; no lubricant in Moes numbers.
+    grid across the motion [a^2, a]; `result`: that of `friction_of`; no lubricant in Moes numbers;
+    `body` 1 or 2; `friction`: 'run' for the shear law, else in proportion to the pressure.
     """
 
     def __init__(
@@ -329,7 +330,7 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
     Raises
     ------
     InputError
-        If the status is not 'predicted', for another `psd.reduction` than 'response', for surfaces
+        If the status is not 'predicted', for another `psd.reduction` than 'response', for a surface
         at rest, or for an invalid body or friction.
     """
     if data.attrs.get("status") != "predicted":
@@ -384,7 +385,7 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
     def pressures(k: int) -> Array:
         result = pressure.copy()
         total = contact.pressure + np.where(contact.inside, change(k)[..., 1], 0.0)
-        # cavitation, on `cavitated_share` of the contact in the prediction
+        # the film cavitates where it would be in tension: `cavitated_share` of the contact
         result[inner] = np.maximum(total, 0.0)
         return result
 
@@ -416,7 +417,7 @@ def _tile(data: xr.Dataset, side: str) -> Topography:
 
 
 def _contact(model: Model, waves: list[Component]) -> RoughContact:
-    """Return the rough contact on enough points to resolve the waves: all pixels of a tile."""
+    """Return the rough contact at all pixels of a tile, or for two surfaces on a grid."""
     of = model.contact, model.operating, model.lubricant
     if len(waves) > 1:
         return RoughContact.on_grid(*of, waves, GRID_POINTS)
@@ -424,7 +425,7 @@ def _contact(model: Model, waves: list[Component]) -> RoughContact:
 
 
 def _position(model: Model, waves: list[Component], time: float) -> tuple[float, float]:
-    """Return the position of the surfaces at a time [a/u]."""
+    """Return the position of the surfaces at a time [a/u]: of two [a], of one in whole pixels."""
     ways = [one.velocity_ratio * time for one in model.in_order]
     if len(waves) > 1:
         return ways[0], ways[1]

@@ -79,8 +79,8 @@ class Preparation:
 def prepare(scan: Scan, options: Options = NEUTRAL) -> Preparation:
     """Prepare the tile of a map as read.
 
-    InputError if a step fails, the map is larger than the memory, or the rms height is so large or
-    small that the unit must be wrong.
+    InputError if a step fails, or the rms height is so large or small that the unit must be wrong;
+    NoMemoryError if the map is larger than the memory.
     """
     work, options, why = _prepared(scan, options, keep=True)
     prepared = work.z
@@ -93,7 +93,7 @@ def consume(scan: Scan, options: Options = NEUTRAL) -> tuple[Array, Record]:
     """Prepare a tile [m] in the memory of `scan`, whose heights are overwritten, with its record.
 
     A map that is to be mirrored is returned without its images, (nx, ny), because these take four
-    times its memory. InputError as :func:`prepare`.
+    times its memory. Exceptions as :func:`prepare`.
     """
     work, options, why = _prepared(scan, options, keep=False)
     _join(work, options, why)
@@ -120,7 +120,7 @@ def _prepared(
     if options.outliers > 0.0:
         _report(scan, "outliers")
         spiky = map_steps.prominence(work.z) > options.outliers
-        # a median of 5 x 5 points misses specks of half as many points
+        # a median of 5 x 5 points misses specks that cover half of them or more
         spiky |= dust_points(map_steps.levelled(work.z), options.outliers)
         valid = ~spiky if valid is None else valid & ~spiky
         work.begin()

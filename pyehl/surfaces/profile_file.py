@@ -38,7 +38,7 @@ MAX_COLUMNS = 3
 """An index, a position and a height."""
 
 Read = tuple[Array, Array | float | None, tuple[float | None, float | None]]
-"""Heights, their positions or their spacing, and the units of positions and of heights [m]."""
+"""Heights (n,), positions (n,) or spacing [m], and the units of positions and of heights [m]."""
 
 
 def read_columns(path: Path, lines: Sequence[str]) -> Read:
@@ -72,7 +72,10 @@ def read_columns(path: Path, lines: Sequence[str]) -> Read:
 
 
 def _decimal_comma(lines: Sequence[str]) -> bool:
-    """Whether commas are decimal commas: numbers contain them, and other characters separate."""
+    """Whether commas are decimal commas: more lines have them than have decimal points.
+
+    Each of those lines has another separator, or a single comma.
+    """
     number = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
     with_comma = [line for line in lines if number.search(line)]
     others = sum(
@@ -83,7 +86,7 @@ def _decimal_comma(lines: Sequence[str]) -> bool:
 
 
 def row_of(line: str, *, comma: bool) -> list[float] | None:
-    """Return the numbers of a line; None if it has words."""
+    """Return the numbers of a line; None if it has anything else, or is blank."""
     parts = re.split(r"[;\t ]+" if comma else r"[;,\t ]+", line.strip().strip(";,").strip())
     try:
         return [float((p.replace(",", ".") if comma else p).strip('"')) for p in parts]
@@ -109,6 +112,7 @@ def _places(table: Array, head: Sequence[str], *, comma: bool) -> Read:
         at = -1
     z = table[:, at + 1]
     if at < 0:
+        # the first column does not ascend: it has the heights
         return z, None, (None, units[0])
     return z, table[:, at], (units[at], units[at + 1])
 
@@ -178,7 +182,10 @@ class Profile:
 def read_profile(
     path: str | Path, length: float | None = None, height_unit: str | None = None
 ) -> Profile:
-    """Read a profile; `length` [m] and `height_unit` are needed if the file has none.
+    """Read a profile.
+
+    `length` [m] is needed if the file has none, and replaces that of the file; `height_unit`, a key
+    of `METRES`, is needed, and used, only if the file names none.
 
     FileError if it cannot be opened; InputError if it is no profile, or a unit is missing or
     implausible.

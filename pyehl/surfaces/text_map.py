@@ -89,6 +89,7 @@ def grid_of(path: Path, points: Array) -> tuple[Array, tuple[float, float]]:
 
 
 MIN_PIXELS = 4
+"""Minimum number of pixels of a map along x and along y."""
 SQUARE = 0.01
 """Relative difference of the sides of a pixel above which it is reported."""
 
@@ -133,7 +134,10 @@ def read_text_map(path: Path, encoding: str, channel: str = "") -> Found:
 def _picked(
     path: Path, tables: list[Table], headers: list[Header], wanted: str
 ) -> tuple[Table, Header]:
-    """Table of a channel by name or number; without a channel, the first one of heights."""
+    """Table of a channel by name or number; without a channel, the first one of heights.
+
+    InputError if no header describes a table, or there is no such channel.
+    """
     names = [header.channel or f"table {n}" for n, header in enumerate(headers, 1)]
     if not any(header.is_informative for header in headers):
         raise InputError(
@@ -252,14 +256,14 @@ def _units_of_columns(table: Table) -> tuple[float, ...]:
 def _unit_at_end(cell: str) -> float | None:
     """Return the unit of a column heading [m]: 'X [mm]', 'x/mm', 'Z_um', 'mm'."""
     word = re.split(r"[\s/_(\[{,]+", cell.strip().rstrip(")]}"))[-1]
-    # 'm' alone may be a name
     return unit_of(word)
 
 
 def _check_points(path: Path, table: Table, rows: Array, header: Header) -> bool:
     """Refuse a table whose numbers of lines and points differ from those of its header.
 
-    Returns True if it has one x per line; in files of images x runs along the lines.
+    Returns True if it has one x per line; in files of images x runs along the lines. Sorts lengths
+    without a unit (`header.bare`) into numbers of points and sizes.
     """
     lines, columns = rows.shape
     for side, count in enumerate((columns, lines)):

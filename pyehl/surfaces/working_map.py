@@ -48,10 +48,10 @@ NEUTRAL = Options()
 def defaults(options: Options, scan: Scan) -> tuple[Options, dict[str, str]]:
     """Resolve 'auto'; returns the options, and the reason for each value.
 
-    A file of an instrument is a map of a part: its tilt is that of the stage and not of the
-    surface, and its edges do not match. An array, and a file that states that it is periodic, is
-    used as it is: nothing is removed, and it is repeated. A cropped or rotated array is no longer
-    periodic.
+    A file of an instrument is a map of a part of the surface: its tilt is that of the stage, and
+    its edges do not match. An array, and a file that states that it is periodic, is used as it is:
+    nothing is removed, and it is repeated. If it is cropped, or rotated by another angle than a
+    multiple of 90 degrees, it is no longer periodic.
     """
     why = {"detrend": "given", "edges": "given"}
     tile = scan.is_array or scan.is_periodic
@@ -84,10 +84,11 @@ class Step:
     why
         Reason for the value: 'given', or the reason of the default.
     changed
-        Number of points that were removed, filled or altered; 0 if all were alike.
+        Number of points that were removed, filled or altered; 0 for a step that treats all points
+        alike.
     before, after
-        Roughness of the map before and after, without mirror images: each height and each step
-        between two of them occurs four times in the tile.
+        Roughness of the map before and after, without mirror images, which repeat its heights and
+        the steps between them.
     note
         Remark; usually empty.
     """

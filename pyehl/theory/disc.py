@@ -2,14 +2,14 @@
 """Pressure of a wave of roughness on the Hertz disc, in closed form.
 
 A half-space resists a periodic wave of flattening exp(i q x) with the pressure E'|q|/4. The contact
-is a disc, and its edge affects waves as long as its radius: the pressure inside differs from that
-of the periodic wave because there is none outside, and the approach of the bodies balances the load
-that a wave carries.
+is a disc, and its edge affects waves longer than about half its radius: the pressure inside differs
+from that of the periodic wave because there is none outside, and the approach of the bodies
+balances the load that a wave carries.
 
-On the unit disc, with z = sqrt(1 - r^2), a pressure Y_lm/z with l - m even deflects the disc into
-Y_lm (Copson 1947; Boersma & Danicki 1993), Y_lm(r, theta) = P_lm(z) cos(m theta). These are
-spherical harmonics on the hemisphere over the disc, so the expansion of a plane wave with a
-wavevector in the plane is the well-known one, with spherical Bessel functions. Only l = 0 carries
+On the unit disc, with z = sqrt(1 - r^2), a pressure Y_lm/z with l - m even deflects the disc in
+proportion to Y_lm (Copson 1947; Boersma & Danicki 1993), Y_lm(r, theta) = P_lm(z) cos(m theta).
+These are spherical harmonics on the hemisphere over the disc, so the expansion of a plane wave with
+a wavevector in the plane is the well-known one, with spherical Bessel functions. Only l = 0 carries
 load; it is omitted. Lengths are scaled by the Hertz radius a, heights by a^2/R, pressures by p_h.
 """
 
@@ -50,24 +50,32 @@ def monomials(x: Array, y: Array, axis: int = -1) -> Array:
 
 
 def _radial(z: Array, last: int) -> list[tuple[range, Array]]:
-    """Return, for each m up to `last`, its degrees l and P_lm(z)/z times the factor of each."""
+    """Return, for each m up to `last`, its degrees l and P_lm(z)/z times the factor of each.
+
+    z (n,); the functions (n, number of l).
+    """
     # the last point is the edge, where the weights take P_lm
     values = _legendre(last, np.append(z, 0.0))
     result = []
     for m in range(last + 1):
-        orders = range(m or 2, last + 1, 2)
-        weighted = [_weight(n, m, values[n, m, -1]) * values[n, m, :-1] / z for n in orders]
-        result.append((orders, np.stack(weighted, axis=-1)))
+        degrees = range(m or 2, last + 1, 2)
+        weighted = [_weight(n, m, values[n, m, -1]) * values[n, m, :-1] / z for n in degrees]
+        result.append((degrees, np.stack(weighted, axis=-1)))
     return result
 
 
 def _series(qx: Array, qy: Array, theta: Array, radial: list[tuple[range, Array]]) -> Complex:
-    """Sum the series at angles (n,) with radial parts (n, number of l), or (1, ...) for all."""
+    """Sum the series of waves (m,) [1/a] at angles (n,) [rad]: (n, m) [p_h per a^2/R].
+
+    `radial` parts are (n, number of l), or (1, number of l) for all angles.
+    """
     q, phi = np.hypot(qx, qy), np.arctan2(qy, qx)
     bessel = spherical_bessel(radial[0][0].stop, q)
     total = np.zeros((theta.size, q.size), dtype=complex)
-    for m, (orders, values) in enumerate(radial):
-        part = values @ np.stack([(-1) ** ((n - m) // 2) * (2 * n + 1) * bessel[n] for n in orders])
+    for m, (degrees, values) in enumerate(radial):
+        part = values @ np.stack(
+            [(-1) ** ((n - m) // 2) * (2 * n + 1) * bessel[n] for n in degrees]
+        )
         # i^l = i^m (-1)^((l - m)/2); cos(m(theta - phi)) by the addition theorem
         turned = np.cos(m * theta)[:, np.newaxis] * np.cos(m * phi) + (
             np.sin(m * theta)[:, np.newaxis] * np.sin(m * phi)
@@ -135,7 +143,9 @@ def disc_correction(qx: Array, qy: Array) -> Complex:
 
 
 def edge_of_disc(qx: Array, qy: Array) -> Complex:
-    """Outward displacement of the edge by waves (m,) [1/a] at EDGE_ANGLES: (n, m) [a].
+    """Outward displacement of the edge by waves (m,) [1/a] at EDGE_ANGLES: (n, m).
+
+    Unit: a per amplitude a^2/R.
 
     A pressure c/z next to the fixed edge is the change of the Hertz pressure z when the edge moves
     outward by c.

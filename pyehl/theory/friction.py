@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Coefficient of friction from the friction ratio, where it is meaningful, and its heat."""
+"""Coefficient of friction from the friction ratio, where it is known, and temperature increases."""
 
 import math
 from typing import Any
@@ -28,7 +28,7 @@ def absolute_friction(
     ``mu_smooth``, both also isothermal, temperature increases, ``shear_rate_mean_per_s``,
     ``shear_stress_max_Pa`` (of the smooth contact) and ``flash_temperature_K``, each NaN where it
     is not known, and ``mu_note``: the reason or the caveat. A Newtonian coefficient is given where
-    the stress stays below the Eyring stress.
+    the stress does not exceed the Eyring stress.
     """
     heat = heat or Heat()
     speed, law = operating.sliding_speed, lubricant.shear

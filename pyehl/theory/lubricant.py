@@ -16,10 +16,10 @@ from pyehl.namelist import text_of, values
 from pyehl.theory.shear import ShearLaw
 from pyehl.types import Array, Settings
 
-# Dowson & Higginson 1966, density under pressure
+# Density under pressure p: (P + F p)/(P + p), P [Pa], F [-] (Dowson & Higginson 1966)
 DENSITY_PRESSURE = 5.9e8
 DENSITY_FACTOR = 1.34
-# Laws that need no constants of the oil except alpha and beta
+# Laws of which all parameters are attributes; the others need `constants`
 SIMPLE_VISCOSITY = ("roelands", "barus")
 SIMPLE_DENSITY = ("dowson-higginson", "incompressible")
 # 0 degC, and the temperature at which Roelands' viscosity is infinite [K]
@@ -35,7 +35,8 @@ def default_roelands_z(
     """Roelands exponent z = alpha p0 / (ln eta0 + 9.67) [-].
 
     It makes d(ln eta)/dp at ambient pressure equal to alpha [1/Pa], for eta0 [Pa s] and p0 [Pa].
-    InputError if the viscosity is so low that ln eta0 + 9.67 <= 0, where the law has no meaning.
+    InputError if the viscosity is not positive, or so low that ln eta0 + 9.67 <= 0, where the law
+    has no meaning.
     """
     denominator = math.log(positive("viscosity", viscosity, "Pa s")) + 9.67
     if denominator <= 0.0:
@@ -67,13 +68,13 @@ class Lubricant:
         ``"dowson-higginson"`` or ``"incompressible"``; from a case also ``"murnaghan"`` or
         ``"tait"``.
     shear
-        Shear stress in the contact, for friction.
+        Law of the shear stress in the contact, for friction.
     temperature
         Temperature of the inlet, for which `viscosity` holds [degC].
     temperature_viscosity
         beta = -(d eta/dT)/eta at ambient pressure and the temperature of the inlet [1/K].
     thermal_expansion
-        Decrease of the density with temperature over the density at 15 degC [1/K]; ``"tait"`` has
+        -(d rho/dT) over the density rho at 15 degC [1/K]; ``"tait"`` has
         its own among the constants.
     range_temperature_min, range_temperature_max, range_pressure_max
         Range in which the constants of the law were measured [degC, Pa]; all 0: not known.
@@ -159,10 +160,11 @@ class Lubricant:
     def log_viscosity_ratio(self, pressure: ArrayLike, rise: ArrayLike = 0.0) -> Array:
         """ln(eta/eta0) [-] at a pressure [Pa] and a temperature increase T' [K], any shapes.
 
-        T' is relative to the temperature of the inlet. NaN below -p0 (Roelands).
+        T' is relative to the temperature T0 of the inlet. NaN below -p0 (Roelands).
 
         Barus 1893: alpha p - beta T'; Roelands 1966: A ((1 + p/p0)^z (1 + T'/(T0 - 138 K))^-S0 - 1)
-        with A = alpha p0/z, S0 = beta (T0 - 138 K)/A. The other laws are those of the solver.
+        with A = alpha p0/z, S0 = beta (T0 - 138 K)/A, or -beta T' if alpha is 0. The other laws are
+        those of the solver.
         """
         p, warmer = np.asarray(pressure, dtype=float), np.asarray(rise, dtype=float)
         if self.viscosity_law not in SIMPLE_VISCOSITY:

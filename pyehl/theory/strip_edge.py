@@ -5,8 +5,8 @@ A pressure p(X) exp(i k_Y Y) on |X| < 1 deflects the half-space by (1/pi) times 
 K_0(|k_Y| |X - X'|) p(X'), of -ln|X - X'| at k_Y = 0 (Johnson 1985, Contact Mechanics, chapter 2).
 With p a sum of T_n(X)/sqrt(1 - X^2) the logarithm gives T_n/n, and the rest of the kernel, which is
 smooth, is integrated at Chebyshev points: each k_Y has a small system of equations. At k_Y = 0 the
-load per length is fixed, so that there is no T_0. Lengths are scaled by b, heights by b^2/R,
-pressures by p_h; the half-space then has the stiffness |q|.
+load per length is fixed, so that there is no T_0. Lengths are scaled by the half-width b, heights
+by b^2/R, pressures by p_h; the half-space then has the stiffness |q|.
 """
 
 import math
@@ -27,7 +27,7 @@ NODES = 256
 PER_WAVE = 16
 """Intervals along an edge per shortest wavelength across the motion."""
 ORDERS = math.ceil(MAX_WAVENUMBER) + 12
-"""Highest order n: a plane wave has no higher ones."""
+"""Highest order n: those above are negligible in a plane wave up to MAX_WAVENUMBER."""
 
 
 class StripEdge:
@@ -63,9 +63,10 @@ class StripEdge:
         )
 
     def correction(self, qx: Array, qy: Array) -> Complex:
-        """Return the pressure of waves (m,) [1/b] on the strip minus that on the half-space.
+        """Return the pressure of waves (l,) [1/b] on the strip minus that on the half-space.
 
-        Coefficients (n, m) of the products of `waves` and `polynomials` [p_h per b^2/R].
+        Coefficients (2 m (DEGREE + 1), l) of the products of `waves` and `polynomials` [p_h per
+        b^2/R].
         """
         result = np.zeros((self.across.size, 2, DEGREE + 1, qx.size), dtype=complex)
         orders = chebyshev.chebvander(self._x, ORDERS) / np.sqrt(1.0 - self._x**2)[:, np.newaxis]
@@ -78,9 +79,10 @@ class StripEdge:
         return result.reshape(2 * self.across.size * (DEGREE + 1), qx.size)
 
     def displacement(self, qx: Array, qy: Array) -> Complex:
-        """Outward displacement of the edges by waves (m,), :func:`pyehl.theory.disc.edge_of_disc`.
+        """Outward displacement of the edges by waves (l,) [1/b]; unit: b per b^2/R.
 
-        First at X = -1, then at X = 1, at the ends (n,) of the intervals: (2 n, m).
+        First at X = -1, then at X = 1, at the ends (n,) of the intervals: (2 n, l). As
+        :func:`pyehl.theory.disc.edge_of_disc`.
         """
         y = np.linspace(0.0, self.width, self.places + 1)
         result = np.zeros((2, y.size, qx.size), dtype=complex)
@@ -91,7 +93,10 @@ class StripEdge:
         return result.reshape(2 * y.size, qx.size)
 
     def waves_and_weights(self, qx: Array, qy: Array) -> Iterator[tuple[int, Indices, Complex]]:
-        """Yield for each |k_Y| its waves (l,) and the weights (orders, l) of T_n/sqrt(1 - X^2)."""
+        """Yield each |k_Y| that has waves, by number, with their indices and pressure weights.
+
+        The weights (ORDERS + 1, number of its waves) are those of T_n/sqrt(1 - X^2).
+        """
         from scipy.special import jv  # noqa: PLC0415 (takes as long to load as all the rest)
 
         if not qx.size:

@@ -14,7 +14,7 @@ STATUSES = ("full film", "mixed film", "film breakdown", "outside the range", "n
 """Status of a point of a curve."""
 FULL_FILM, MIXED, BREAKDOWN, OUTSIDE, UNSOLVED = STATUSES
 LIFT_OFF = 0.01
-"""Load share of the boundary film at the transition speed."""
+"""Load share of the boundary film at the transition speed, where solid contact counts as ended."""
 SPEED = "contact.mean_velocity"
 
 
@@ -137,7 +137,10 @@ def lift_off(speeds: Array, table: pd.DataFrame) -> LiftOff | None:
 
 
 def _crossing(speeds: Array, share: Array) -> float | None:
-    """Highest speed at which a load share falls to `LIFT_OFF`, log-linear in the speed."""
+    """Highest speed at which a load share falls to `LIFT_OFF`; None if it does not.
+
+    Speeds, ascending, and load shares (n,); the share is linear in the logarithm of the speed.
+    """
     falls = np.flatnonzero((share[:-1] > LIFT_OFF) & (share[1:] <= LIFT_OFF))
     if not falls.size:
         return None
