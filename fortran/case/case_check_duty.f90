@@ -86,7 +86,7 @@ contains
             " with a duty", "none of &time: the table sets the duration, duty.time_step and duty.target_error the "// &
             "time steps", status)
          if (input%grid%border == "flooded") call source%refuse("grid.border", "grid.border = 'flooded' with a duty", &
-            "'zero': a duty changes the distance of the border, and the flooded pressure there is not known", status)
+            "'zero': the pressure at a flooded border contains no squeeze term", status)
          if (d%reverses() .and. abs(input%grid%x_inlet + input%grid%x_outlet) > 1.0e-9_dp*input%grid%x_outlet) then
             call source%refuse("grid.x_inlet", "a domain from "//to_text(input%grid%x_inlet)//" to "// &
                                to_text(input%grid%x_outlet)//" a, and the mean velocity changes sign", &

@@ -1,9 +1,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Touching nodes (boundary_film.f90) in sweeps, line systems and coarse problems
+!> Touching nodes (boundary_film.f90) in sweeps, line systems and coarse problems, and the cycles they need
 submodule (ehl_boundary_film) ehl_touching_nodes
    use ehl_coarse_problem, only: weight_row
    use ehl_level, only: cavity_pressure
    implicit none (type, external)
+
+   !> Minimum cycle limit per node along X: trapped lubricant moves about three nodes per cycle, through at most half of the nodes
+   real(dp), parameter :: cycles_per_node = 0.5_dp
+   !> Relative load error above which the cycles are stopped, and the cycles made before this test
+   real(dp), parameter :: max_load_error = 1.0_dp
+   integer, parameter :: load_test_after = 10
 
 contains
 
@@ -97,4 +103,13 @@ contains
       call weight_row(coarse, step, fine%touching_residual, j, restricted)
       residual = merge(restricted, residual, self%touching(:, j) > 0.0_dp)
    end procedure restrict_residual
+
+   module procedure cycle_limit
+      cycle_limit = usual
+      if (self%active) cycle_limit = max(usual, int(cycles_per_node*nodes))
+   end procedure cycle_limit
+
+   module procedure load_diverges
+      load_diverges = self%active .and. cycles > load_test_after .and. abs(load_error) > max_load_error
+   end procedure load_diverges
 end submodule ehl_touching_nodes

@@ -72,6 +72,8 @@ module ehl_boundary_film
       procedure :: supports
       procedure :: stress_row
       procedure :: has_film
+      procedure :: cycle_limit
+      procedure :: load_diverges
       procedure :: operator_row
       procedure :: residual_row
       procedure :: zero_touching
@@ -175,6 +177,23 @@ module ehl_boundary_film
          !> Shape (nx)
          real(dp), contiguous, intent(inout) :: residual(:)
       end subroutine restrict_residual
+
+      !> Cycle limit of a stationary roughness: larger with a boundary film, since lubricant trapped between touching nodes moves
+      !> slowly
+      pure module integer function cycle_limit(self, usual, nodes)
+         class(boundary_film_t), intent(in) :: self
+         !> Limit without a boundary film; nodes along X
+         integer, intent(in) :: usual, nodes
+      end function cycle_limit
+
+      !> Whether the load error of a stationary roughness is too large for further cycles to converge; never without a boundary film
+      pure module logical function load_diverges(self, cycles, load_error)
+         class(boundary_film_t), intent(in) :: self
+         !> Cycles made
+         integer, intent(in) :: cycles
+         !> Relative error of the load
+         real(dp), intent(in) :: load_error
+      end function load_diverges
    end interface
 
 contains

@@ -64,6 +64,9 @@ contains
          if (rough%may_scale_load()) call rough%balance(hierarchy)
       end if
       outcome = rough%cycle_status(rough%converged())
-      if (outcome == outcome_running .and. rough%load_diverged(hierarchy%levels(rough%n))) outcome = outcome_cycle_limit
+      if (outcome /= outcome_running) return
+      associate (boundary => hierarchy%levels(rough%n)%boundary)
+         if (boundary%load_diverges(rough%cycles, rough%m%load_error)) outcome = outcome_cycle_limit
+      end associate
    end subroutine one_cycle
 end module ehl_stationary_rough

@@ -25,12 +25,6 @@ module ehl_stationary_state
    real(dp), parameter :: friction_tolerance = 1.0e-3_dp, fraction_tolerance = 3.0e-2_dp
    !> Maximum relative error of the force balance that scaling the pressure may correct at a boundary film
    real(dp), parameter :: small_load_error = 1.0e-5_dp
-   !> Minimum cycle limit of a fraction at a boundary film, per node along X: lubricant trapped between nodes in solid contact
-   !> moves about three nodes per cycle, through at most half of the nodes
-   real(dp), parameter :: cycles_per_node = 0.5_dp
-   !> Relative error of the load at a boundary film above which the cycles are stopped, and the cycles made before this test
-   real(dp), parameter :: max_load_error = 1.0_dp
-   integer, parameter :: load_test_after = 10
    !> Minimum step of the fraction
    real(dp), parameter :: min_step = 1.0_dp/64.0_dp
 
@@ -63,7 +57,6 @@ module ehl_stationary_state
       procedure :: estimate_error
       procedure :: may_scale_load
       procedure :: converged
-      procedure :: load_diverged
       procedure :: accept
       procedure :: reject
       procedure :: add_roughness
@@ -88,8 +81,7 @@ contains
       self%contact = contact
       self%n = n
       self%cycle = options%cycle
-      self%max_cycles = options%max_cycles
-      if (level%boundary%active) self%max_cycles = max(options%max_cycles, int(cycles_per_node*level%grid%nx))
+      self%max_cycles = level%boundary%cycle_limit(options%max_cycles, level%grid%nx)
       self%tolerance = friction_tolerance*options%accuracy
       if (allocated(self%rr)) deallocate (self%rr, self%p_done)
       allocate (self%rr(level%grid%nx, level%grid%ny), self%p_done(level%grid%nx, level%grid%ny), stat=stat)
@@ -148,13 +140,6 @@ contains
       converged = self%algebraic <= tolerance .and. abs(self%m%load_error) <= load_tolerance &
                   .and. self%residual <= residual_tolerance .and. self%cycles > 1 .and. self%m%holds
    end function converged
-
-   !> Whether the load error at a boundary film is too large for the cycles to converge
-   pure logical function load_diverged(self, level)
-      class(stationary_t), intent(in) :: self
-      type(level_t), intent(in) :: level
-      load_diverged = level%boundary%active .and. self%cycles > load_test_after .and. abs(self%m%load_error) > max_load_error
-   end function load_diverged
 
    !> Keep the solution at the present fraction
    subroutine accept(self, level)

@@ -184,10 +184,7 @@ def _check_beside(draft: Draft) -> None:
     """Refuse keys of other groups that contradict the duty."""
     grid = draft.settings.grid
     if draft.is_given("grid", "border") and grid.border == "flooded":
-        expected = (
-            "'zero': a duty changes the distance of the border, and the flooded pressure there is "
-            "not known"
-        )
+        expected = "'zero': the pressure at a flooded border contains no squeeze term"
         draft.refuse("grid.border", "grid.border = 'flooded' with a duty", expected)
     if grid.target_error > 0.0:
         expected = "grid.points; duty.target_error is that of the time steps"
