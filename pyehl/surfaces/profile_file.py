@@ -6,6 +6,7 @@ columns of positions and heights, under header lines that may name units, spacin
 points: Mountains, Dektak, Mitutoyo, spreadsheets.
 """
 
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -252,11 +253,11 @@ def _iso(path: Path, lines: Sequence[str]) -> Read:
                 raise InputError(f"{path}: unit '{words[3]}' of {words[0]}: expected MM, UM or NM")
             axes[words[0].upper()] = (
                 words[1].upper(),
-                int(_float(words[2])),
-                unit * _float(words[4]),
+                int(_given(path, words[2], words[0])),
+                unit * _given(path, words[4], words[0]),
             )
         if len(words) >= 3 and words[0].upper() == "SPACING":
-            spacing = _float(words[2])
+            spacing = _given(path, words[2], words[0])
     if "CZ" not in axes:
         raise InputError(f"{path}: a file of ISO 5436-2 without an axis CZ: no profile")
     # the second EOR ends the header; the data follow, and a third EOR ends the file
@@ -272,6 +273,14 @@ def _iso(path: Path, lines: Sequence[str]) -> Read:
     if numbers.size < count:
         raise InputError(f"{path}: {numbers.size} heights where the head has {count}")
     return numbers[:count] * axes["CZ"][2], places, (1.0, 1.0)
+
+
+def _given(path: Path, word: str, record: str) -> float:
+    """Return the number of a record of the header."""
+    number = _number_or_nan(word)
+    if not math.isfinite(number):
+        raise InputError(f"{path}: '{word}' in the record {record}: expected a number")
+    return number
 
 
 def _float(word: str) -> float:

@@ -97,6 +97,9 @@ def test_one_column_asks_for_its_length_and_unit(tmp_path, z):
             "40 heights",
         ),
         (mahr(np.zeros(40), unit="FURLONG"), "unit 'FURLONG' of CZ"),
+        (mahr(np.zeros(40)).replace("CX M 4.0", "CX M x4.0"), "'x4.0.*' in the record CX"),
+        (mahr(np.zeros(40)).replace("MM 1e-06 L", "MM one L"), "'one' in the record CZ"),
+        (mahr(np.zeros(40)).replace("CX 5.0e-04", "CX nan"), "'nan' in the record SPACING"),
         (two(np.arange(40) * 1e-6, "{:.4f} {:.4f}", head="x [um]  z [m]\n"), "rms slope of 2e"),
         (
             "0 1\n" + "\n".join(f"{k} {k % 3}" for k in range(40)) + "\n41\n",
