@@ -27,6 +27,10 @@ module ehl_case_grid
    !> thirds of the cycles are needed, at 6 and 7 up to three times as many. Below it a roller, whose film away from the ends
    !> follows its profile, has the longest cells at any alpha p_h.
    real(dp), parameter :: high_spike = 15.0_dp
+   !> kappa above which the trailing edge is nearly parallel to Y, and L up to which the cells are then long at any alpha p_h: of
+   !> 13 contacts with kappa from 22 to 30, L from 7 to 9 and alpha p_h above 35 twelve are faster (median 0.58 of the time), of
+   !> 15 with kappa from 7 to 20 eight (docs/evidence/machines)
+   real(dp), parameter :: straight_edge = 22.0_dp, low_spike = 9.0_dp
    !> A-priori error of H_c above which the default grid of a smooth contact has twice the intervals
    real(dp), parameter :: max_error = 0.05_dp
    !> Largest a-priori error of H_c on a smaller grid of a steady, flooded contact with kappa above `very_wide`, near the median
@@ -62,6 +66,7 @@ contains
          grid%points = points(contact, point, grid, may_reduce)
       end if
       blunt = point%alpha_bar < blunt_spike(point%moes_l)
+      if (contact%reach(2) > straight_edge*contact%reach(1)) blunt = blunt .or. point%moes_l < low_spike
       if (contact%is_roller()) then
          blunt = blunt .or. point%moes_l < high_spike
       else
@@ -107,7 +112,7 @@ contains
       real(dp), intent(in) :: moes_l
 
       blunt_spike = merge(19.0_dp, 21.0_dp, moes_l > 10.0_dp)
-      if (moes_l < 9.0_dp) blunt_spike = 35.0_dp
+      if (moes_l < low_spike) blunt_spike = 35.0_dp
       if (moes_l < 7.0_dp) blunt_spike = huge(blunt_spike)
    end function blunt_spike
 

@@ -41,6 +41,8 @@ module ehl_cycle
       logical :: finest_only = .false.
       !> Whether the coarse-grid correction is reduced at sharp pressure spikes
       logical :: spare_spikes = .false.
+      !> Whether a diverged coarse grid gives no correction
+      logical :: reject_diverged = .false.
       !> Kind of transfers and coarse operators
       integer :: coarsening = coarsening_classical
    end type cycle_options_t
@@ -62,6 +64,8 @@ contains
       damped%max_log_change = damped_log_change(d)
       damped%relaxation_factor = damped_sweep(d)
       damped%correction_factor = damped_correction(d)
+      ! where coarse grids have a sharp spike at another position (correct), its growth is no divergence
+      damped%reject_diverged = .not. options%spare_spikes
    end function damped_cycle
 
    !> One cycle with level n as the finest. Film and coefficients are up to date before and after.
@@ -129,7 +133,7 @@ contains
          call fas_cycle(grids, m, coarser)
       end if
       call correct(grids%levels(n), grids%levels(m), grids%workspaces(m), grids%coarsenings(n)%transfer, options%coarsening, &
-                   options%correction_factor, options%spare_spikes)
+                   options%correction_factor, options%spare_spikes, options%reject_diverged)
       call update_coefficients(grids%levels(n))
    end subroutine visit_coarser
 

@@ -20,6 +20,7 @@ python docs/evidence/machines/make.py narrow narrow1.json narrow2.json
 python docs/evidence/machines/make.py narrow_sides    narrow_sides.csv
 python docs/evidence/machines/make.py sides    sides.csv
 python docs/evidence/machines/make.py cells    cells.csv
+python docs/evidence/machines/make.py straight straight.csv
 python docs/evidence/machines/make.py border   border.csv
 python docs/evidence/machines/make.py show     prints the tables of the documents
 """
@@ -66,10 +67,18 @@ POINTS = (
 # As `blunt_spike` in fortran/case/case_grid.f90: alpha p_h up to L = 10 and above; alpha p_h and L
 # up to which the default cells are long, and L below which they are long at any alpha p_h
 SHARP, MEDIUM_SHARP, MEDIUM, LOW = (21.0, 19.0), 35.0, 9.0, 7.0
+# As `straight_edge` there; contacts of `straight.csv`: seeds, count, and smallest M by R_x
+STRAIGHT, SEEDS, COUNT, LARGE = 22.0, range(30, 266), 60, 8e4
 USUAL = 513
 CELLS = (
     *("seed", "number", "law", "ellipticity", "moes_l", "alpha_p_h", "points", "points_y"),
     *("total_cycles", "seconds", "long_status", "long_total_cycles", "long_seconds"),
+)
+STRAIGHT_CELLS = (
+    *("seed", "number", "law", "ellipticity", "moes_m", "moes_l", "alpha_p_h", "points"),
+    *("points_y", "status", "total_cycles", "seconds", "H_c", "H_min"),
+    *("long_points_y", "long_status", "long_total_cycles", "long_seconds"),
+    *("long_H_c", "long_H_min", "long_H_c_error", "long_H_min_error"),
 )
 # Algebraic over discretisation error, small so that grids do not differ by algebraic errors
 ACCURACY = 0.005
@@ -219,6 +228,54 @@ def cells() -> list[str]:
             f"| {low:g} to {high:g} | {_between(least, most)} | {len(mine)} "
             f"| {len(mine) - len(good)} | {faster} | {median(ratios):.2f} |"
         )
+    return lines
+
+
+def measure_straight() -> None:
+    """Solve very wide contacts of large M with L from 7 to 9 on long (default) and short cells."""
+    rows = []
+    for seed in SEEDS:
+        for number, contact in enumerate(draw(COUNT, seed)):
+            alpha_p_h = contact.values["lubricant.pressure_viscosity"] * contact.pressure
+            if not (contact.ellipticity or 0.0) > STRAIGHT or not alpha_p_h > MEDIUM_SHARP:
+                continue
+            keys = dict(contact.values) | SETTINGS
+            with pyehl.Solver(pyehl.Case.from_text("", keys)) as solver:
+                point = solver.summary
+            if not LOW < point["moes_l"] < MEDIUM or not point["moes_m"] > LARGE:
+                continue
+            long = timed(keys)
+            short = timed(keys | {"grid.points_y": 2 * long["points_y"] - 1})
+            row = {
+                "seed": seed,
+                "number": number,
+                "law": contact.values.get("lubricant.shear_law", "newtonian"),
+            }
+            row |= {"ellipticity": contact.ellipticity, "alpha_p_h": alpha_p_h}
+            rows.append(short | row | {f"long_{name}": long[name] for name in long})
+            print(seed, number, rows[-1]["seconds"], rows[-1]["long_seconds"], flush=True)
+    write("straight.csv", STRAIGHT_CELLS, rows)
+
+
+def straight() -> list[str]:
+    """Make the table of times on long cells over those on short ones, in very wide contacts."""
+    lines = [
+        "| contacts | no solution on long cells | faster on long cells | ratio of times: median, "
+        "largest | largest change of h_c, h_min |",
+        "|---|---|---|---|---|",
+    ]
+    mine = read("straight.csv")
+    good = [row for row in mine if row["long_status"] == "converged" == row["status"]]
+    ratios = [row["long_seconds"] / row["seconds"] for row in good]
+    changes = [
+        max(abs(row[f"long_{name}"] / row[name] - 1.0) for row in good) for name in ("H_c", "H_min")
+    ]
+    missing = sum(row["long_status"] != "converged" for row in mine)
+    lines.append(
+        f"| {len(mine)} | {missing} | {sum(ratio < 1.0 for ratio in ratios)} "
+        f"| {median(ratios):.2f}, {max(ratios):.1f} "
+        f"| {', '.join(f'{100.0 * change:.2f} %' for change in changes)} |"
+    )
     return lines
 
 
@@ -378,6 +435,7 @@ def _percent(value: float, other: float) -> str:
 MEASURE = {
     "sides": measure_sides,
     "cells": measure_cells,
+    "straight": measure_straight,
     "border": measure_border,
     "narrow_sides": measure_narrow_sides,
 }
