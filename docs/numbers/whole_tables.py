@@ -13,7 +13,7 @@ from pyehl.conclusion import conclude
 def machines() -> Values:
     """Random machine contacts, their borders and sides, and modes on cells."""
     make, modes = script("machines/make.py"), script("machines/modes.py")
-    names = ("robustness", "speed", "sides", "by_border", "cells", "narrow_sides")
+    names = ("robustness", "speed", "sides", "by_border", "cells", "straight", "narrow_sides")
     return {name: "\n".join(getattr(make, name)()) for name in names} | {
         "lines": "\n".join(make.robustness(make.LINES)),
         "narrow": "\n".join(make.robustness(make.NARROW)),

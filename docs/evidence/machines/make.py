@@ -191,7 +191,8 @@ def measure_cells() -> None:
         sharp = alpha_p_h > SHARP[row["moes_l"] > 10.0]
         if row["ellipticity"] < 5.0 or row["moes_l"] > 15.0 or not sharp or row["points"] < USUAL:
             continue
-        is_long = row["moes_l"] < LOW or (row["moes_l"] < MEDIUM and alpha_p_h < MEDIUM_SHARP)
+        medium = alpha_p_h < MEDIUM_SHARP or row["ellipticity"] > STRAIGHT
+        is_long = row["moes_l"] < LOW or (row["moes_l"] < MEDIUM and medium)
         # so that half the rows can be coarsened as often
         unit = (row["points"] - 1) // 4
         across = unit * round((row["points_y"] - 1) * (2 if is_long else 1) / unit)
