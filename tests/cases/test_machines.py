@@ -285,6 +285,18 @@ def test_default_grid_of_a_wide_contact(keys, points):
     assert case["grid"]["points"] == points
 
 
+@pytest.mark.parametrize(
+    ("seed", "number", "long"), [(159, 35, True), (134, 55, True), (96, 48, False)]
+)
+def test_default_cells_of_a_very_wide_contact(seed: int, number: int, long: bool):
+    """L from 7 to 9, alpha p_h above 35: the cells are long if kappa exceeds 22 (13 in 96/48)."""
+    contact = draw(number + 1, seed)[number]
+    grid = pyehl.Case.from_text("", contact.values)["grid"]
+    x_mesh = (grid["x_outlet"] - grid["x_inlet"]) / (grid["points"] - 1)
+    ratio = 2.0 * grid["y_extent"] / (grid["points_y"] - 1) / x_mesh
+    assert ratio > 2.5 if long else ratio < 1.6
+
+
 def test_reduced_grid_of_a_wide_contact():
     """Its films differ from those on 513 nodes by less than the stated errors."""
     keys = WIDE | SETTINGS | {"contact.moes_m": 300.0}
@@ -303,6 +315,15 @@ def test_softened_contact_restarts_with_damped_cycles_on_the_first_grid():
     done = timed(dict(contact.values) | SETTINGS | {"grid.points": 129})
     assert (done["status"], done["restarts"]) == ("converged", 1)
     assert done["total_cycles"] <= 40
+
+
+@pytest.mark.long
+def test_diverged_coarse_grids_give_no_correction():
+    """M = 124 000: with their corrections it takes 17 cycles, 8 of them on the finest grid."""
+    contact = draw(37, 89)[36]
+    done = timed(dict(contact.values) | SETTINGS)
+    assert done["status"] == "converged"
+    assert (done["cycles"], done["total_cycles"]) <= (4, 10)
 
 
 @pytest.mark.parametrize(
