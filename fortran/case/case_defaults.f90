@@ -52,7 +52,7 @@ contains
       call find_contact(input, contact, scales, point)
       call complete_inlet(source, scales, input)
       given = [(source%given("grid."//grid_keys(k)), k=1, size(grid_keys))]
-      ! the pressure at a border is not known under a duty
+      ! the pressure at a flooded border contains no squeeze term
       if (input%duty%active() .and. .not. given(1)) input%grid%border = "zero"
       if (is_starved(input) .and. .not. given(1)) input%grid%border = "zero"
       given(2) = given(2) .or. input%inlet%position_hertz > 0.0_dp

@@ -44,7 +44,7 @@ contains
       !> alpha p_h
       real(dp), intent(in) :: alpha_bar
       !> Hertz pressure, 0 if alpha p_h is 0 and the size of the contact is not known, and Roelands reference pressure [Pa];
-      !> with 0 the density, and with alpha p_h = 0 the viscosity, does not depend on pressure
+      !> without a Hertz pressure the density, and with alpha p_h = 0 the viscosity, does not depend on pressure
       real(dp), intent(in) :: hertz_pressure, roelands_p0
       real(dp), intent(in) :: z
       !> beta = -(d eta/dT)/eta and thermal expansion [1/K], absent: 0; temperature of the inlet [K], absent: 313.15

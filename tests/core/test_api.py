@@ -78,9 +78,12 @@ def test_a_case_by_its_values():
     assert case.with_options(values, "surface.seed=3").resolve()["surface"]["seed"] == 3
     with pytest.raises(pyehl.InputError, match=r"(?s)contact\.laod.*'load'"):
         pyehl.Case(contact={"laod": 3.0})
-    for times in (["late", 1.0], [[0.0, 1.0], [2.0]], [None, 1.0]):
+    dates = np.array(["2020-01-01", "2020-01-02"], dtype="datetime64[D]")
+    for times in (["late", 1.0], [[0.0, 1.0], [2.0]], [None, 1.0], dates):
         with pytest.raises(pyehl.InputError, match=r"duty\.time.*numbers"):
             pyehl.Case.from_text("", {"duty.time": times})
+    with pytest.raises(pyehl.InputError, match=r"(?s)duty\.load.*number"):
+        pyehl.Case.from_text("", {"duty.load": np.ma.array([1.0, 2.0], mask=[0, 1])})
 
 
 @pytest.mark.parametrize("values", [{"grid.points": 66}, {"gird.points": 65}])
