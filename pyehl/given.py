@@ -175,7 +175,7 @@ def _option_of(key: str, value: Any) -> str:  # noqa: ANN401
             if isinstance(value, np.ndarray) and value.dtype.kind in "Mm":
                 raise TypeError(OTHER_KINDS[value.dtype.kind])
             # what is masked is missing, and the case refuses it
-            masked = np.ma.asarray(value, dtype=float)
+            masked: Any = np.ma.asarray(value, dtype=float)
             numbers = np.ma.filled(masked, np.nan).ravel().tolist()
         except (TypeError, ValueError):
             raise InputError(f"{key} = {reprlib.repr(value)}: expected numbers") from None
