@@ -21,7 +21,7 @@ COLUMNS = columns(
 )
 MEANING = (
     "seconds: one application; units: of one scipy.fft deflection at that grid; error: relative to "
-    "the largest deflection;\nshare: of the discretisation error of the sum; half: Y >= 0 of a "
+    "the maximum deflection;\nshare: of the discretisation error of the sum; half: Y >= 0 of a "
     "symmetric pressure"
 )
 """Meaning of the columns."""
@@ -30,7 +30,7 @@ MEANING = (
 def deflection_rows(grids: Sequence[int], threads: Sequence[int]) -> list[Row]:
     """Time and error of every engine on every grid, whole and half domain.
 
-    The error is relative to the largest deflection, against the sum that all engines approximate
+    The error is relative to the maximum deflection, against the sum that all engines approximate
     (computed by scipy.fft to rounding); the discretisation error is that of the sum against the
     analytic deflection of the Hertz pressure, 1 - r^2/2.
     """

@@ -38,7 +38,7 @@ COLUMNS = columns(
 MEANING = (
     "seconds: start to end, all grids of the nested iteration; units: of one scipy.fft deflection "
     "at that grid;\nratio: of the seconds per node to those of the first case, solved in turn; "
-    "error: of H_c against the limit of the two finest grids; peak memory: the "
+    "error: of H_c relative to the limit of the two finest grids; peak memory: the "
     "whole process with Python"
 )
 """Meaning of the columns."""
@@ -92,8 +92,8 @@ def smooth_rows(
     """Measure time, error of H_c and peak memory of smooth solutions on each grid.
 
     The error is relative to the value extrapolated from the two finest grids of this run, hence
-    independent of the estimate of the solver. The cases are solved in turn, so that other load
-    slows all of them alike.
+    independent of the estimate of the solver. The cases are solved in turn, so that other
+    load on the machine affects them equally.
     """
     rows: list[Row] = []
     for points in grids:
@@ -180,8 +180,7 @@ def work(args: argparse.Namespace) -> Row:
     )
     slopes = exponents(rows)
     print(f"smooth contact, M = {args.moes_m}, L = {args.moes_l}")
-    grows = "time grows with the number of nodes to the power"
-    notes = [f"{grows} {slope:.2f} ({name})" for name, slope in slopes.items()]
+    notes = [f"time ~ (number of nodes)^{slope:.2f} ({name})" for name, slope in slopes.items()]
     show(rows, COLUMNS, *notes, MEANING)
     return {"exponents": slopes, "moes_m": args.moes_m, "moes_l": args.moes_l, "rows": rows}
 

@@ -181,7 +181,7 @@ def _rows_of(
             solvers += _filled(case, threads, front, stack)
         before = [solver.summary for solver in solvers]
         times: list[list[float]] = [[] for _ in solvers]
-        # in turn, so that other load slows all of them alike
+        # in turn, so that other load on the machine affects them equally
         for _ in range(steps):
             for solver, taken in zip(solvers, times, strict=True):
                 began = time.perf_counter()

@@ -29,7 +29,7 @@ from pyehl.types import Row
 STRICT = {"solver.accuracy": 0.005, "solver.max_cycles": 200}
 """Settings of the stricter run."""
 MAX_AMPLITUDE = 1.0
-"""Largest surface.amplitude that a case may have [a^2/R]."""
+"""Maximum surface.amplitude that a case may have [a^2/R]."""
 KEPT = (
     *("status", "points", "restarts", "steps", "cycles_per_step", "cycles", "rough_cycles"),
     *("amplitude", "H_c", "H_c_error_grid", "H_min", "mu_ratio", "mu_ratio_error", "last_mu_ratio"),

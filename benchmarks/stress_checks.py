@@ -87,7 +87,7 @@ def broken(folder: Path) -> str:
     carried = pressure.sum() * cell / (2.0 * np.pi / 3.0) + float(data["load_beyond"])
     conditions = {
         "P >= 0": pressure.min() >= 0.0,
-        "film of the layer": mass.min() >= 1.0 - FILM_TOLERANCE,
+        "boundary film": mass.min() >= 1.0 - FILM_TOLERANCE,
         "load": abs(carried - 1.0) <= LOAD_TOLERANCE,
         "load share": abs(share - reported) <= LOAD_TOLERANCE,
         "N <= 0": given >= -FILM_TOLERANCE,

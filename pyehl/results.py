@@ -59,7 +59,7 @@ SOLUTION = (
     Field("P_smooth", "P_smooth", "p_smooth_Pa", "Pa", PLANE, "pressure, smooth contact", "p/p_h"),
     Field("H_smooth", "H_smooth", "h_smooth_m", "m", PLANE, "film, smooth contact", "h R/a^2"),
     Field("RR", "RR", "rr_m", "m", PLANE, "roughness, peaks positive", "r R/a^2"),
-    Field("A_d", "A_d", "a_d_m", "m", PLANE, "deformed roughness: smooth film less film", "R/a^2"),
+    Field("A_d", "A_d", "a_d_m", "m", PLANE, "deformed roughness: smooth film minus film", "R/a^2"),
     *(
         Field(name := f"temperature_rise{part}_K", name, name, "K", PLANE, f"rise of {of}", "")
         for part, of in (

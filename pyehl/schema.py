@@ -209,7 +209,7 @@ s | rolling_moment_N_m | N m | R times the integral of h/2 dp/dx, smooth contact
 s | rolling_moment_N | N | rolling moment of a line contact, per length
 spt | shear_law | | law of the shear stress
 sp | slide_to_roll | - | (u1 - u2)/u
-t | residual_rms | - | root mean square of fitted less measured mu
+t | residual_rms | - | root mean square of fitted minus measured mu
 sp | pressure_viscosity_note | | source of alpha, if the case does not give it
 s | lubricant_note | | law of the oil, range of its constants, and whether the contact is beyond it
 s | inlet_viscosity_Pa_s | Pa s | viscosity of the inlet

@@ -5,7 +5,7 @@ from pyehl.case import duty, physics
 from pyehl.case.key import short, to_text
 from pyehl.case.settings import Draft
 
-# Minimum distance of the sides of the domain, in terms of the contact
+# Minimum distance of the sides of the domain from the centre, over that of the edge of the contact
 BEYOND_CONTACT = 1.05
 # Minimum and maximum intervals per side of the coarsest grid, as in fortran/grid/grid.f90
 MIN_COARSEST, MAX_COARSEST = 16, 32

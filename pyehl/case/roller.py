@@ -16,7 +16,7 @@ NO_FLOODED_BORDER = (
     "long that P = 0 there has a small error"
 )
 COLUMNS = "y", "drop"
-TABLE = "profile_file: lines 'y, drop' in m, y rising from -length/2 to length/2"
+TABLE = "profile_file: lines 'y, drop' in m, y increasing from -length/2 to length/2"
 KEYS_OF = {
     "none": (),
     "crown": ("crown_radius",),

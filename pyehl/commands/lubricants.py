@@ -31,7 +31,7 @@ def report(oil: Oil, temperature: float) -> str:
         f"{oil.name}: {oil.title}",
         f"  source     {oil.source}",
         f"  range      {oil.range}",
-        f"  {temperature:g} degC    {1e3 * at.viscosity:.4g} mPa s, falling by "
+        f"  {temperature:g} degC    {1e3 * at.viscosity:.4g} mPa s, decreasing by "
         f"{100.0 * at.temperature_viscosity:.2f} % per kelvin; law '{oil.viscosity_law}'",
         f"             {coefficients}",
     ]

@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--pdf",
         action="store_true",
-        help="print it as PDF, too, by an installed Chromium or Chrome",
+        help="also print it as PDF, with an installed Chromium or Chrome",
     )
 
 

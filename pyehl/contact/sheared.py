@@ -43,9 +43,9 @@ class ShearedContact:
         self.thins = thins(lubricant, operating)
         self.cavitated = 0  # points where the pressure is not positive
         self.count = 0  # number of positions
-        self.ended = 0  # points where the film has ended
-        self.imbalance = 0.0  # largest load of delta p over the load, in magnitude [-]
-        self.lost = False  # whether the roughness reduces the pressure by more than there is
+        self.ended = 0  # points with film breakdown
+        self.imbalance = 0.0  # maximum load of delta p over the load, in magnitude [-]
+        self.lost = False  # whether the load of a ring of points would be negative
         self.max_increase = -math.inf  # maximum pressure increase by the roughness within INNER
         self.max_pressure = -math.inf  # maximum pressure within INNER
         self.squared_increase = 0.0  # sum over positions of the mean square increase within NEAR

@@ -29,7 +29,7 @@ from pyehl.types import Array, Complex, Settings
 SLOPE = 1.2e-3
 """Amplitude of a wave times its wavenumber [a/R]: small enough for a linear response."""
 REACH = 1.0
-"""Largest |X| at which the response is measured [a]."""
+"""Maximum |X| at which the response is measured [a]."""
 # solver.accuracy of a run
 ACCURACY = 0.02
 # Pixels per shortest wave; the solver interpolates a map by its Fourier series

@@ -48,7 +48,7 @@ STRESS_NOTE = "ratio of friction coefficients at the given slide-to-roll ratio"
 
 
 # Why the friction of a partial film is not known
-BETWEEN = "the film ends between the positions at which contact is looked for"
+BETWEEN = "the film ends between the positions at which contact is searched for"
 NO_FRICTION = (
     "the bodies touch, and the friction there is not known: lubricant.boundary_friction and "
     "sliding are needed"
@@ -271,7 +271,7 @@ def with_contact(result: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]
 
 def _lost(friction: RoughFriction, mixed: MixedFilm) -> RoughFriction:
     """Remove the friction of a full film if there is solid contact of unknown extent."""
-    message = f"the bodies touch at the boundary film, and nothing of that is known: {mixed.note}"
+    message = f"the bodies touch at the boundary film, to an unknown extent: {mixed.note}"
     if friction.status != "predicted":
         message = f"{friction.message}; {message}"
     status = "film breakdown" if friction.status == "predicted" else friction.status

@@ -2,7 +2,7 @@
 """Solid contact where the predicted film would be thinner than the boundary film.
 
 The film predicted by the response must not, at any position of the tile, be thinner than the
-boundary film (``lubricant.boundary_film``; under pressure it is compressed as the lubricant is). A
+boundary film (``lubricant.boundary_film``; it is as compressible as the lubricant). A
 contact pressure p_c increases the film. It deforms the surfaces as if the roughness r were r -
 p_c/K, K being the stiffness of the half-space, and the fluid flattens this difference like any
 roughness. So the loss of film decreases by T p_c/K and the pressure increases by T p_c, where T
@@ -290,7 +290,7 @@ TOUCHING_FILM_ERROR = 0.45
 WAVE_POINTS, SHORTER, CONTACT_POINTS = 8, 1e-3, (60.0, 128.0)
 """Points per shortest wave, as many as a grid needs to resolve it; fraction of the variance that
 shorter waves may have; minimum and maximum number of points per shorter semi-axis: the minimum is
-that without a boundary film, and the time grows with the square."""
+that without a boundary film, and the time increases with its square."""
 
 # Why contact at a boundary film is not predicted, or its errors are not known
 OF_TWO = "contact at a boundary film is predicted for a single rough surface"

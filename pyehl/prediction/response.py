@@ -429,4 +429,4 @@ class Response:
     """Response of a loaded contact to a rough tile, everywhere as at its centre."""
 
     pressure: Array  # delta p (nx, ny) [Pa], mean zero
-    deformed: Array  # deformed roughness rr_d (nx, ny) [m], mean zero, peaks thin the film
+    deformed: Array  # deformed roughness rr_d (nx, ny) [m], mean zero, peaks positive

@@ -17,8 +17,8 @@ from pyehl.subsurface.result import facts, stress
 FOLDER = "stress"
 """Subfolder of a result in which a report looks for its stress."""
 PICTURES = {
-    "section": "Principal shear stress on the section y = 0, largest over time",
-    "depth": "Largest principal shear stress against depth",
+    "section": "Principal shear stress on the section y = 0, maximum over time",
+    "depth": "Maximum principal shear stress against depth",
 }
 
 

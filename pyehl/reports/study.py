@@ -129,7 +129,7 @@ def _assess(rows: pd.DataFrame, size: int) -> Assessment:
         return Assessment("No result", why, "fail")
     errors = _errors(rows)
     if errors:
-        why += f" Largest errors: {', '.join(f'{n} {100.0 * v:.2g} %' for n, v in errors.items())}."
+        why += f" Maximum errors: {', '.join(f'{n} {100.0 * v:.2g} %' for n, v in errors.items())}."
     doubtful = any(error > WELL_KNOWN for error in errors.values())
     if doubtful:
         why += f" Above {100.0 * WELL_KNOWN:g} % a finer grid is recommended."

@@ -168,7 +168,7 @@ class Deviation:
 
     @property
     def difference(self) -> float:
-        """Result less reference [as the result]; NaN without a result."""
+        """Result minus reference [unit of the result]; NaN without a result."""
         return math.nan if self.value is None else self.value - self.expected.value
 
     @property

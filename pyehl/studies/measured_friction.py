@@ -68,7 +68,7 @@ class Measured:
         return self.places.size - int(np.count_nonzero(inside))
 
     def deviation(self, name: str, curve: Curve) -> Array:
-        """Give a column of the curve over the measured friction, less 1 (n,); NaN outside of it.
+        """Give a column of the curve over the measured friction, minus 1 (n,); NaN outside of it.
 
         Interpolated along the curve, between places with the column.
         """

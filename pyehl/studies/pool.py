@@ -111,6 +111,7 @@ def _begin(parent: int) -> None:
 
 
 def _end_without(parent: int) -> None:
+    """Wait until the parent has died, then end this process."""
     while os.getppid() == parent:
         time.sleep(LOOK)
     os._exit(0)

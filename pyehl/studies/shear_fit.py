@@ -141,7 +141,7 @@ class Fit:
 
     @property
     def residual_rms(self) -> float:
-        """Root mean square of fitted less measured values [their unit]."""
+        """Root mean square of fitted minus measured values [their unit]."""
         return float(np.sqrt(np.mean((self.fitted - self.measured) ** 2)))
 
     @property

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 
-# Ratio of successive depths; greatest depth over the shorter semi-axis of the contact
+# Ratio of successive depths; maximum depth over the shorter semi-axis of the contact
 RATIO, MAX_DEPTH = 1.3, 3.0
 # Relative rms of the pressure in waves too short to be resolved
 UNRESOLVED = 0.003
@@ -185,7 +185,7 @@ def profile(
 
     all_depths = depths(first.pressure, loads.mesh, loads.short_side) if at is None else at
     if all_depths[0] == 0.0 and any(steep_edge(load.traction) for load in (loads.smooth, first)):
-        # the stress at the surface grows with the number of nodes
+        # the stress at the surface increases with the number of nodes
         all_depths = all_depths[1:]
     for depth in tqdm(all_depths, desc="stress", delay=2.0, leave=False, disable=not progress):
         add(float(depth))

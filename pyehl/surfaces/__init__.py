@@ -2,7 +2,7 @@
 """Rough surfaces: generators, height maps, spectra, exact shifts.
 
 A surface is a periodic tile of heights z [m], array (nx, ny), first index along x (the rolling
-direction); peaks are positive and thin the film. Pixel [i, j] lies at x = i length_x/nx,
+direction); peaks are positive and reduce the film. Pixel [i, j] lies at x = i length_x/nx,
 y = j length_y/ny. Spectra are those of Jacobs, Junge & Pastewka 2017, in m^4.
 """
 

@@ -103,13 +103,13 @@ def without_axes(rows: Array, header: Sequence[str], cells: Cells) -> tuple[Arra
     else:
         return _rising(rows, along, across)
     raise ValueError(
-        f"the first {name} grows as an axis does, but not in equal steps: a map needs equal steps "
-        "(positions with more digits), or a table of heights only"
+        f"the first {name} increases or decreases like an axis, but not in equal steps: a map "
+        "needs equal steps (positions with more digits), or a table of heights only"
     )
 
 
 def _heading(line: str, cells: Cells, columns: int) -> Array | None:
-    """Numbers of a line whose first cell is a word or missing; None if others are no numbers."""
+    """Numbers of a line whose first cell is a word or missing; None if others are not numbers."""
     words = cells.split(line.lstrip("#"))
     if len(words) not in (columns, columns - 1):
         return None

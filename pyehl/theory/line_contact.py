@@ -179,7 +179,7 @@ class LineContact:
             oil.temperature_viscosity, oil.viscosity, c.mean_velocity, oil.thermal_conductivity
         )
         ratio = thermal_reduction(loading, line.hertz_pressure / c.reduced_modulus, c.slide_to_roll)
-        # the film grows at least as viscosity^0.4, which bounds the logarithm of the viscosity
+        # the film increases at least as viscosity^0.4, which bounds the logarithm of the viscosity
         wanted, low, high = ratio * line.film, 2.5 * math.log(ratio), 0.0
         for _ in range(60):
             middle = 0.5 * (low + high)

@@ -83,7 +83,7 @@ def inlet_viscosity_ratio(
     if film_ratio == 1.0:
         return 1.0
     wanted = film_ratio * nijenbanning_venner_moes(moes_m, moes_l, shape)
-    # the film grows at least as viscosity^0.4, which bounds the logarithm of the ratio
+    # the film increases at least as viscosity^0.4, which bounds the logarithm of the ratio
     low, high = sorted((2.5 * math.log(film_ratio), 0.0))
     for _ in range(60):
         middle = 0.5 * (low + high)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Response of the inlet of a lubricated contact to one wave of roughness, to first order.
 
-Roughness A Re exp(i(k(X - U T) + k_Y Y)), U its velocity over the mean velocity, thins the film by
-A Re T exp(i(...)): T is the complex ratio of deformed to undeformed amplitude, a function of the
+Roughness A Re exp(i(k(X - U T) + k_Y Y)), U its velocity over the mean velocity, reduces the film
+by A Re T exp(i(...)): T is the complex ratio of deformed to undeformed amplitude, a function of the
 wave and of the position. Lengths along the surface are scaled by the Hertz radius a, films by
 a^2/R, pressures by p_h, times by a/u; k > 0.
 

@@ -60,7 +60,7 @@ def flow_factors(
     result = np.empty((5, b.size), order="F")
     extension.lubricants.flow_factors(CODES[law], exponent, b.ravel().copy(), s, result)
     if not np.all(np.isfinite(result)):
-        raise EhlError(f"no flow factors of a film that obeys {law} at a stress beyond all bounds")
+        raise EhlError(f"no flow factors: the iteration for the stress by the law {law!r} failed")
     return FlowFactors(*(row.reshape(b.shape) for row in result))
 
 
@@ -89,7 +89,7 @@ class ShearLaw:
     # Carreau: stress G at which thinning begins [Pa], power-law exponent n [-]; no defaults
     carreau_stress: float = 0.0
     carreau_exponent: float = 0.0
-    # Whether the flow obeys the law, too: then Carreau's law has its stress form
+    # Whether the flow also obeys the law: then Carreau's law has its stress form
     in_flow: bool = False
 
     def __post_init__(self) -> None:

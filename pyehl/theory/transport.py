@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Waves of film and pressure in the zone of high pressure: the linearised Reynolds equation.
 
-Roughness A Re exp(i(k(X - U T) + k_Y Y)), U its velocity over the mean velocity, thins the film by
-A Re T exp(i(...)) and raises the pressure by A Re Pi exp(i(...)). All lengths along the surface are
-scaled by the Hertz radius a, films by a^2/R, pressures by p_h, times by a/u; k > 0.
+Roughness A Re exp(i(k(X - U T) + k_Y Y)), U its velocity over the mean velocity, reduces the film
+by A Re T exp(i(...)) and increases the pressure by A Re Pi exp(i(...)). All lengths along the
+surface are scaled by the Hertz radius a, films by a^2/R, pressures by p_h, times by a/u; k > 0.
 
 The half-space gives Pi = K (1 - T) + i K k/|q|^2 T', K = (pi/4)|q|, |q| = hypot(k, k_Y): to first
 order the stiffness of a wave whose amplitude changes along the motion (`wave_pressure`: of the

@@ -137,7 +137,7 @@ def test_inlet_that_a_grid_does_not_resolve(solve, points):
 
 
 def test_target_error_refines_until_the_inlet_is_resolved(solve):
-    """All grids up to 129 x 129 nodes give the film of the layer, and agree."""
+    """All grids up to 129 x 129 nodes give the boundary film, and agree."""
     touching = STEEL | {
         "contact.load": 100.0,
         "contact.mean_velocity": 0.1,

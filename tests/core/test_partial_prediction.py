@@ -251,7 +251,7 @@ def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):
     assert (tmp_path / "out" / "passage.png").is_file()
 
 
-NOTHING = "full film; the bodies touch at the boundary film, and nothing of that is known: "
+NOTHING = "full film; the bodies touch at the boundary film, to an unknown extent: "
 TABLE1 = {
     "lubricant.shear_law": "eyring",
     "lubricant.boundary_friction": 0.12,

@@ -133,7 +133,7 @@ def test_missing_lines_are_reported(tmp_path: Path):
         [*table[:5], *table[6:]],
         [*table[:5], table[6], table[5], *table[7:]],
     ):
-        with pytest.raises(InputError, match=r"the first column grows .* not in equal steps"):
+        with pytest.raises(InputError, match=r"the first column increases .* not in equal steps"):
             read_scan(write(tmp_path / "table.csv", rows), 3e-5, 2e-5, height_unit="um")
 
 
@@ -145,7 +145,7 @@ def test_places_with_too_few_digits_are_no_heights(tmp_path: Path):
     lines += [";".join([y, *(f"{z:.7f}" for z in rng.normal(0, 0.02, 9))]) for y in places]
     path = tmp_path / "map.txt"
     path.write_text("\n".join(lines))
-    with pytest.raises(InputError, match="the first column grows as an axis does"):
+    with pytest.raises(InputError, match="the first column increases or decreases like an axis"):
         read_scan(path, 1e-5, 1e-5, height_unit="um")
 
 

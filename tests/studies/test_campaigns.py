@@ -142,7 +142,7 @@ def test_fields_that_violate_a_condition_are_detected(tmp_path: Path):
     assert stress_checks.broken(tmp_path / "c") == ""
     film = np.load(tmp_path / "c" / "H.npy")
     np.save(tmp_path / "c" / "H.npy", 0.9 * film)
-    assert stress_checks.broken(tmp_path / "c").startswith("film of the layer")
+    assert stress_checks.broken(tmp_path / "c").startswith("boundary film")
 
 
 @pytest.mark.long
