@@ -323,7 +323,8 @@ def test_diverged_coarse_grids_give_no_correction():
     contact = draw(37, 89)[36]
     done = timed(dict(contact.values) | SETTINGS)
     assert done["status"] == "converged"
-    assert (done["cycles"], done["total_cycles"]) <= (4, 10)
+    assert done["cycles"] <= 4
+    assert done["total_cycles"] <= 10
 
 
 @pytest.mark.parametrize(
