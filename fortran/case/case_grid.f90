@@ -29,7 +29,7 @@ module ehl_case_grid
    real(dp), parameter :: high_spike = 15.0_dp
    !> kappa above which the trailing edge is nearly parallel to Y, and L up to which the cells are then long at any alpha p_h: of
    !> 39 contacts with kappa from 22 to 30, L from 7 to 9 and alpha p_h above 35 all are solved on long cells and 37 on short ones,
-   !> and of these 34 take less time (docs/evidence/machines). With kappa from 7 to 20 the times were equal on average.
+   !> and of these 34 take less time (docs/evidence/machines).
    real(dp), parameter :: straight_edge = 22.0_dp, low_spike = 9.0_dp
    !> A-priori error of H_c above which the default grid of a smooth contact has twice the intervals
    real(dp), parameter :: max_error = 0.05_dp

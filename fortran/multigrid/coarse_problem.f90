@@ -35,7 +35,7 @@ module ehl_coarse_problem
    real(dp), parameter :: sharp = 3.0_dp
    !> A coarse grid has diverged if its maximum pressure exceeds this multiple of its start value: in rollers, whose ends coarse
    !> grids do not resolve, and in damped cycles. Of 26 contacts with M above 9e4 (R_x) the limit 3 makes ten 1.4 to 9.6
-   !> times faster and none slower (docs/evidence/machines); 1000 is not enough.
+   !> times faster and none slower (docs/evidence/machines).
    real(dp), parameter :: max_growth_roller = 1.5_dp, max_growth_damped = 3.0_dp
 
 contains

@@ -64,7 +64,7 @@ contains
       damped%max_log_change = damped_log_change(d)
       damped%relaxation_factor = damped_sweep(d)
       damped%correction_factor = damped_correction(d)
-      ! where coarse grids have a sharp spike at another position (correct), its growth is no divergence
+      ! with sharp spikes a coarse grid has the spike at another position (see correct): there its growth is no divergence
       damped%reject_diverged = .not. options%spare_spikes
    end function damped_cycle
 
