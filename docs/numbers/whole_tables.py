@@ -13,8 +13,9 @@ from pyehl.conclusion import conclude
 def machines() -> Values:
     """Random machine contacts, their borders and sides, and modes on cells."""
     make, modes = script("machines/make.py"), script("machines/modes.py")
-    names = ("robustness", "speed", "sides", "by_border", "cells", "straight", "narrow_sides")
-    return {name: "\n".join(getattr(make, name)()) for name in names} | {
+    cells, domains = script("machines/cells.py"), script("machines/domains.py")
+    tables = (make.robustness, make.speed, *cells.TABLES, *domains.TABLES)
+    return {table.__name__: "\n".join(table()) for table in tables} | {
         "lines": "\n".join(make.robustness(make.LINES)),
         "narrow": "\n".join(make.robustness(make.NARROW)),
         "narrow_times": "\n".join(make.speed(make.NARROW)),
