@@ -153,7 +153,7 @@ def test_constants_of_the_prediction(states):
     q = np.geomspace(0.1, 200.0, 20)
     gains = [edge_gain(kx, q, film) for kx in (0.0, 5.0, 20.0) for film in (0.01, 0.03, 0.1)]
     assert 0.03 < np.max(gains) - 1.0 < 0.04
-    states("docs/theory/prediction.md", "require up to 4 % more pressure")
+    states("docs/theory/prediction.md", "`edge_gain` adds up to 4 %")
 
 
 def test_pressure_far_from_the_contact(states):
