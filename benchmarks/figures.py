@@ -15,8 +15,8 @@ from pyehl.types import Array, Values
 # Outcome: marker, colour (Okabe & Ito) and entry in the legend
 OUTCOMES = {
     "converged": ("o", style.GREEN, "converged"),
-    "ended": (".", "0.45", "all steps asked for converged"),
-    "no solution": ("v", style.GREY, "the equations have no solution"),
+    "ended": (".", "0.45", "all steps done, mean not settled"),
+    "no solution": ("v", style.GREY, "no solution"),
     "negative film": ("s", style.BLUE, "negative film"),
     "cycle limit": ("x", style.VERMILLION, "cycle limit"),
     "diverged": ("P", style.PURPLE, "diverged"),

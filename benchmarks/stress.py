@@ -41,7 +41,7 @@ COLUMNS = columns(
     "family:s cases:d converged:d ended:d failed:d checked:d wrong:d cycles:.1f most_cycles:.1f"
 )
 MEANING = (
-    "ended: all steps asked for converged; checked: solved once more to a twentieth of the "
+    "ended: all required steps converged; checked: solved once more to a twentieth of the "
     "algebraic error;\nwrong: differs by more than the error it states; cycles: of a step, or all"
 )
 """Meaning of the columns."""

@@ -166,7 +166,7 @@ def draw(table: list[dict[str, Any]]) -> None:
         yticks=[1.0, 1.5, 2.0, 2.5],
         aspect="equal",
         xlabel=r"$\mu_r/\mu_s$ simulated, 513 nodes along $X$",
-        ylabel=r"$\mu_r/\mu_s$ predicted before",
+        ylabel=r"$\mu_r/\mu_s$, original prediction",
     )
     axes[1].axhline(0.0, color=GREY, linewidth=0.8)
     off = before - ratio
@@ -174,7 +174,7 @@ def draw(table: list[dict[str, Any]]) -> None:
     axes[1].set(
         xscale="log",
         xlabel=r"ellipticity $\kappa$: semi-axis across the motion over $a$",
-        ylabel="predicted less simulated",
+        ylabel="prediction minus simulation",
     )
     ticks = [0.4, 0.6, 1.0, 1.5, 2.0, 3.0, 4.0]
     axes[1].xaxis.set_major_locator(mpl.ticker.FixedLocator(ticks))

@@ -106,7 +106,7 @@ def draw(table: list[dict[str, Any]]) -> None:
         xlim=line,
         ylim=line,
         xlabel=r"$\mu_r/\mu_s$ by full simulation",
-        ylabel=r"$\mu_r/\mu_s$ predicted before",
+        ylabel=r"$\mu_r/\mu_s$, original prediction",
     )
     ticks = [1.0, 1.2, 1.5, 2.0, 2.5]
     for axis in (ax.xaxis, ax.yaxis):
