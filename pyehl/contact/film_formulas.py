@@ -151,7 +151,7 @@ def _films(
     if isinstance(operating, LineContact):
         films = line_contact.estimates(operating, lubricant)
         if layer > 0.0:
-            density = float(lubricant.density_ratio(operating.hertz_pressure))
+            density = float(lubricant.density_ratio(operating.density_pressure))
             h_c = line_contact.central_film(operating, lubricant)
             layer *= operating.film_scale
             films.append(starvation.line_estimate(layer / density, h_c))
@@ -165,7 +165,7 @@ def _films(
         layer,
         (film.central_film(operating, lubricant), next(h_min, math.nan)),
         operating.film_scale,
-        float(lubricant.density_ratio(operating.hertz_pressure)),
+        float(lubricant.density_ratio(operating.density_pressure)),
         operating.ellipse.ellipticity,
     )
     return [*films, starved] if starved else films

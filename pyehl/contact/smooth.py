@@ -109,7 +109,7 @@ def touching_points(settings: Settings) -> int:
     grid = settings["grid"]
     points, length = int(grid["points"]), float(grid["x_outlet"]) - float(grid["x_inlet"])
     film = formula_film(operating, lubricant) / operating.film_scale
-    density = float(lubricant.density_ratio(operating.hertz_pressure))
+    density = float(lubricant.density_ratio(operating.density_pressure))
     boundary = float(settings["lubricant"]["boundary_film"]) / operating.film_scale / density
     if boundary >= THICKER * film:
         return points

@@ -144,10 +144,7 @@ def central_film(operating: OperatingPoint, lubricant: Lubricant) -> float:
     flooded contacts for 20 <= M <= 200 (docs/evidence/validation).
     """
     h = nijenbanning_venner_moes(operating.moes_m, operating.moes_l, operating.ellipse)
-    if not operating.si and operating.pressure_viscosity == 0.0:
-        # L = 0 without SI values has no pressure to compress the lubricant
-        return h * operating.film_scale
-    return h * operating.film_scale / float(lubricant.density_ratio(operating.hertz_pressure))
+    return h * operating.film_scale / float(lubricant.density_ratio(operating.density_pressure))
 
 
 def outside(

@@ -250,6 +250,14 @@ class LineContact:
         return 2.0 * self.load_per_length / (math.pi * self.half_width)
 
     @property
+    def density_pressure(self) -> float:
+        """Pressure for the density of the film [Pa]: p_h, or 0 at L = 0 without SI values.
+
+        M alone does not fix a pressure, and the solver then omits the compression.
+        """
+        return self.hertz_pressure if self.si or self.pressure_viscosity > 0.0 else 0.0
+
+    @property
     def speed(self) -> float:
         """U = eta0 u/(E' R) [-]."""
         return self.viscosity * self.mean_velocity / (self.reduced_modulus * self.radius)
@@ -332,7 +340,7 @@ def circle_with_same_inlet(
     if operating.radius_ratio == 1.0:
         return moes_m, moes_l
     here = film / operating.ellipse.kernel_ratio
-    density = float(lubricant.density_ratio(operating.hertz_pressure))
+    density = float(lubricant.density_ratio(operating.density_pressure))
     film_ratio = here * density / nijenbanning_venner_moes(moes_m, moes_l)
     ratio = inlet_viscosity_ratio(moes_m, moes_l, film_ratio)
     return moes_m * ratio**-0.75, moes_l * ratio**0.25
@@ -369,7 +377,7 @@ def moes_film(moes_m: float, moes_l: float) -> float:
 
 def central_film(line: LineContact, lubricant: Lubricant) -> float:
     """Central film thickness h_c [m]: Moes divided by rho(p_h)/rho0."""
-    return line.film / float(lubricant.density_ratio(line.hertz_pressure))
+    return line.film / float(lubricant.density_ratio(line.density_pressure))
 
 
 def regime(moes_m: float, moes_l: float) -> str:

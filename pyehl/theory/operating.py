@@ -260,6 +260,14 @@ class OperatingPoint:
         return 1.5 * self.load / (math.pi * self.ellipse.ellipticity * self.hertz_radius**2)
 
     @property
+    def density_pressure(self) -> float:
+        """Pressure for the density of the film [Pa]: p_h, or 0 at L = 0 without SI values.
+
+        M alone does not fix a pressure, and the solver then omits the compression.
+        """
+        return self.hertz_pressure if self.si or self.pressure_viscosity > 0.0 else 0.0
+
+    @property
     def speed(self) -> float:
         """U = eta0 u/(E' R) [-]."""
         return self.viscosity * self.mean_velocity / (self.reduced_modulus * self.radius)

@@ -2,10 +2,13 @@
 """The infinite line: Hertz contact, Moes numbers and film formulas."""
 
 import math
+from dataclasses import replace
 
 import line_newton
 import pytest
 
+import pyehl
+from pyehl.contact.film_formulas import sheet
 from pyehl.errors import InputError
 from pyehl.theory import line_contact
 from pyehl.theory.line_contact import LineContact
@@ -62,3 +65,31 @@ def test_without_alpha_and_bad_numbers():
         LineContact(-1.0, 1.0, 0.01)
     with pytest.raises(InputError, match="M > 0"):
         line_contact.moes_film(0.0, 5.0)
+
+
+def test_density_at_l_0_is_that_of_the_solver():
+    """L = 0 without SI values has no pressure to compress the lubricant; with them it has."""
+    line = LineContact.from_moes(10.0, 0.0)
+    film = line_contact.central_film(line, Lubricant()) / line.film_scale
+    solved = pyehl.solve(
+        pyehl.Case(
+            contact={"shape": "line", "moes_m_line": 10.0, "moes_l_line": 0.0}, grid={"points": 257}
+        )
+    )
+    # as far below the solution as for L = 5 ... 10; with the density it would be 15 % below
+    assert -0.025 <= film / float(solved["H_c"]) - 1.0 <= -0.003
+    in_si = replace(line, si=True)
+    density = float(Lubricant().density_ratio(line.hertz_pressure))
+    assert line_contact.central_film(in_si, Lubricant()) == pytest.approx(
+        film * line.film_scale / density, rel=1e-12
+    )
+
+
+@pytest.mark.parametrize(
+    "contact", [{"shape": "line", "moes_m_line": 10.0, "moes_l_line": 0.0}, {"moes_l": 0.0}]
+)
+def test_density_at_l_0_of_a_starved_inlet(contact):
+    """All oil of a thin layer enters the contact, at its ambient density."""
+    settings = pyehl.Case(contact=contact, inlet={"film_hertz": 1e-3}).resolve()
+    (starved,) = (f for f in sheet(settings)["formulas"] if f["name"].startswith("starved"))
+    assert starved["H_c"] == pytest.approx(1e-3, rel=1e-3)
