@@ -19,6 +19,7 @@ import scipy
 
 from pyehl import surfaces
 from pyehl.assessment import NO_INLET
+from pyehl.case.line import TRANSVERSE
 from pyehl.conclusion import Conclusion, conclude
 from pyehl.contact.smooth import film_of
 from pyehl.prediction.friction import BEYOND, NO_FRICTION
@@ -55,6 +56,10 @@ def pattern(settings: Settings, operating: AnyContact, film: float) -> Pattern:
     if settings["surface"]["kind"] == "harmonic":
         lengths = [float(settings["surface"][f"wavelength_{axis}"]) for axis in "xy"]
         amplitude = surfaces.harmonic_amplitude(settings, operating, film)
+        if operating.ellipse.is_line and lengths[1] >= TRANSVERSE:
+            # one cosine instead of two
+            root = math.sqrt(2.0)
+            return Pattern(amplitude / root, root * lengths[0] * operating.hertz_radius)
         return Pattern(0.5 * amplitude, min(lengths) * operating.hertz_radius)
     tile = surfaces.from_settings(settings, operating, film)
     qx, qy = surfaces.wavenumbers(tile)

@@ -3,6 +3,7 @@
 
 import csv
 import io
+import math
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
@@ -14,8 +15,9 @@ from matplotlib.image import imread
 import pyehl
 from pyehl.cli import main
 from pyehl.studies.curve import pattern
-from pyehl.surfaces import harmonic
+from pyehl.surfaces import from_settings, harmonic
 from pyehl.theory import stribeck
+from pyehl.theory.line_contact import LineContact
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transition import BREAKDOWN, FULL_FILM, OUTSIDE, full_film_ends
 
@@ -243,6 +245,31 @@ def test_pattern_of_a_map_of_one_wave_is_that_wave(tmp_path: Path):
     result = pattern(case.resolve(), point, 2e-7)
     assert result.wavelength == pytest.approx(wavelength, rel=1e-9)
     assert result.rms_height == pytest.approx(1.5e-8, rel=1e-9)
+
+
+def test_pattern_of_a_transverse_wave_on_a_line():
+    """One cosine has the rms height A/sqrt(2), as in the solver and in the tile of a prediction."""
+    case = pyehl.Case(
+        contact={"shape": "line", "load_per_length": 1e5, "mean_velocity": 1.0, "radius": 0.01},
+        surface={
+            "kind": "harmonic",
+            "amplitude": 1e-3,
+            "wavelength_x": 0.5,
+            "wavelength_y": 1e6,
+            "velocity_ratio": 0.0,
+        },
+        grid={"points": 129},
+    )
+    settings = case.resolve()
+    line = LineContact.from_settings(settings)
+    result = pattern(settings, line, 2e-7)
+    assert result.rms_height == pytest.approx(1e-3 * line.film_scale / math.sqrt(2.0), rel=1e-12)
+    solved = pyehl.solve(case)
+    assert result.rms_height == pytest.approx(float(solved["surface_rms_m"]), rel=1e-6)
+    # as if the same heights were a map
+    tile = from_settings(settings, line, 2e-7)
+    assert result.rms_height == pytest.approx(tile.rms_height, rel=1e-12)
+    assert result.wavelength == pytest.approx(math.sqrt(2.0) * 0.5 * line.hertz_radius, rel=1e-12)
 
 
 @pytest.mark.parametrize(
