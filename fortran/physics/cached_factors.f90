@@ -32,8 +32,8 @@ module ehl_cached_factors
 
    type :: cached_factors_t
       type(thinning_t) :: law
-      !> Whether factors are extrapolated for small changes, and the maximum of these
-      logical :: follows = .true.
+      !> Whether factors are extrapolated for small changes (see `extrapolate`), and the maximum of these
+      logical, private :: follows = .true.
       real(dp), private :: reach = 0.0_dp
       !> Whether the level is solved for a correction of a finer one, which allows larger changes
       logical :: correcting = .false.
@@ -44,6 +44,7 @@ module ehl_cached_factors
       real(real32), allocatable, private :: changes(:, :, :, :)
    contains
       procedure :: setup
+      procedure :: extrapolate
       procedure :: forget
       procedure :: find
       procedure :: stress
@@ -63,14 +64,24 @@ contains
 
       blocks = (nx - 1)/most + 1
       self%width = (nx - 1)/blocks + 1
-      self%reach = merge(max_change/max(1.0_dp, self%law%curvature()/weak_curvature), 0.0_dp, self%follows)
+      call self%extrapolate(self%follows)
       allocate (self%values(self%width, fields, blocks, ny), source=none, stat=stat)
       if (stat == 0) allocate (self%changes(self%width, change_fields, blocks, ny), source=0.0_real32, stat=stat)
       if (stat /= 0) self%width = 0
    end subroutine setup
 
+   !> Extrapolate factors for small changes, or compute them again after any change; those of the other choice are discarded
+   pure subroutine extrapolate(self, follows)
+      class(cached_factors_t), intent(inout) :: self
+      logical, intent(in) :: follows
+
+      if (follows .neqv. self%follows) call self%forget()
+      self%follows = follows
+      self%reach = merge(max_change/max(1.0_dp, self%law%curvature()/weak_curvature), 0.0_dp, follows)
+   end subroutine extrapolate
+
    !> Discard all factors: they are computed again when needed
-   subroutine forget(self)
+   pure subroutine forget(self)
       class(cached_factors_t), intent(inout) :: self
       if (allocated(self%values)) self%values(:, f_b, :, :) = none
    end subroutine forget

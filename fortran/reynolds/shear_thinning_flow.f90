@@ -47,8 +47,7 @@ contains
 
       flow%cached%law = law
       flow%sliding = sliding
-      ! the derivative of the stress in the limit of vanishing sliding is not known
-      flow%cached%follows = sliding > 0.0_dp
+      call extrapolate_if_sliding(flow)
       flow%gradient = gradient
       flow%dir_y = dir_y
       flow%depends_on_gradient = .true.
@@ -63,7 +62,15 @@ contains
 
       self%inverse_speed = inverse_speed
       self%sliding = stress
+      call extrapolate_if_sliding(self)
    end subroutine rescale
+
+   !> Extrapolate cached factors only while the surfaces slide: the change of the stress over the sliding with the gradient, in the
+   !> limit of vanishing sliding, is not known
+   pure subroutine extrapolate_if_sliding(flow)
+      class(shear_thinning_flow_t), intent(inout) :: flow
+      call flow%cached%extrapolate(flow%sliding > 0.0_dp)
+   end subroutine extrapolate_if_sliding
 
    !> Weaken shear thinning as if the stress of the law were 1/fraction times as large
    subroutine soften(self, fraction)

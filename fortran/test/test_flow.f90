@@ -6,7 +6,11 @@ module test_flow
    use ehl_factor_rows, only: factor_rows_t, find_factors, second_order
    use ehl_flow_factors, only: exact_factors, factors_t
    use ehl_cached_factors, only: cached_factors_t
+   use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
+   use ehl_lubricant, only: density_constant, lubricant_t, new_lubricant, viscosity_barus
+   use ehl_shear_thinning_flow, only: new_shear_thinning_flow, shear_thinning_flow_t
+   use ehl_status, only: status_t
    use ehl_thinning, only: carreau, eyring, most, thinning_t
    implicit none (type, external)
    private
@@ -23,6 +27,7 @@ contains
       call of_second_order()
       call side_by_side()
       call cached()
+      call sliding_to_zero()
       call changes_against_differences()
    end subroutine run_flow
 
@@ -159,6 +164,46 @@ contains
          call is_true(worst(4) > worst(3), "they are extrapolated for larger changes")
       end do
    end subroutine cached
+
+   !> The flow of a duty whose sliding becomes zero and returns is that of a contact with this sliding
+   subroutine sliding_to_zero()
+      real(dp), parameter :: sliding(5) = [1.0e-3_dp, 0.0_dp, 0.0_dp, 1.0e-4_dp, 0.0_dp]
+      integer, parameter :: nx = 17, ny = 5
+      type(shear_thinning_flow_t) :: flow, anew
+      type(lubricant_t) :: lubricant
+      type(grid_t) :: grid
+      type(status_t) :: status
+      real(dp), dimension(nx) :: h, rho, drho_dp, newtonian, stress, wanted
+      real(dp) :: p(nx, ny), conductance(nx, 2)
+      integer :: i, j, k
+
+      grid = grid_t(nx=nx, ny=ny, x0=0.0_dp, y0=0.0_dp, hx=0.1_dp, hy=0.1_dp)
+      lubricant = new_lubricant(viscosity_barus, density_constant, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp)
+      h = 1.0_dp
+      rho = 1.0_dp
+      drho_dp = 0.0_dp
+      flow = new_shear_thinning_flow(by_eyring, sliding(1), 1.0_dp)
+      call flow%setup(grid, status)
+      do k = 1, size(sliding)
+         ! S changes by less than the reach of the extrapolation
+         do i = 1, nx
+            do j = 1, ny
+               p(i, j) = (4.0_dp + 2.0e-3_dp*k)*grid%x(i) + grid%y(j)
+            end do
+         end do
+         anew = new_shear_thinning_flow(by_eyring, sliding(k), 1.0_dp)
+         call anew%setup(grid, status)
+         anew%inverse_speed = 1.0_dp
+         call flow%rescale(1.0_dp, sliding(k))
+         call flow%find_row(lubricant, p, h, rho, drho_dp, 3, nx)
+         conductance = flow%eps(:, 3, :)
+         call flow%stress_row(lubricant, p, h, rho, 3, newtonian, stress)
+         call anew%find_row(lubricant, p, h, rho, drho_dp, 3, nx)
+         call anew%stress_row(lubricant, p, h, rho, 3, newtonian, wanted)
+         call is_close(maxval(abs(conductance/anew%eps(:, 3, :) - 1.0_dp)), 0.0_dp, 0.0_dp, "conductance after a change of sliding")
+         call is_close(maxval(abs(stress/wanted - 1.0_dp)), 0.0_dp, 0.0_dp, "stress after a change of sliding")
+      end do
+   end subroutine sliding_to_zero
 
    subroutine agree(law, b, s, wanted)
       type(thinning_t), intent(in) :: law
