@@ -348,7 +348,7 @@ class Solver:
     cycle: str = word(
         "auto",
         "auto|W|V|F",
-        "multigrid cycle; auto: F, the second one reduced, for a smooth contact, V for time steps "
+        "multigrid cycle; auto: F, the second cycle V, for a smooth contact, V for time steps "
         "and for one row of nodes",
     )
     accuracy: float = real(
