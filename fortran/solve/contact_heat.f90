@@ -34,13 +34,11 @@ contains
 
    module procedure step_heat
       type(heated_t) :: found
-      type(status_t) :: status
 
-      step_heat = not_known
+      ratio = not_known
       if (mod(self%transient%step, interval(self)) > 0) return
-      ! the ratio is NaN without memory
       call add_heat(self, self%smooth%n, .false., found, status)
-      step_heat = found%ratio()
+      ratio = found%ratio()
    end procedure step_heat
 
    module procedure heat_ratio

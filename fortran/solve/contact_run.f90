@@ -126,9 +126,11 @@ module ehl_contact_run
       end subroutine add_heat
 
       !> Thermal over isothermal friction after a step; NaN if not computed
-      module real(dp) function step_heat(self)
+      module subroutine step_heat(self, ratio, status)
          class(contact_run_t), intent(in) :: self
-      end function step_heat
+         real(dp), intent(out) :: ratio
+         type(status_t), intent(inout) :: status
+      end subroutine step_heat
 
       !> Thermal over isothermal friction of the converged rough contact, averaged as the friction ratio; NaN if unknown
       module real(dp) function heat_ratio(self)
@@ -230,7 +232,7 @@ contains
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
       real(dp), allocatable :: row(:)
-      real(dp) :: numbers(size(touching_names))
+      real(dp) :: numbers(size(touching_names)), heat_ratio_of_step
 
       associate (transient => self%transient, m => self%transient%m, level => self%hierarchy%levels(self%smooth%n))
          if (self%plan%duty%active) then
@@ -240,7 +242,11 @@ contains
          else
             row = [real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, m%film_central, &
                    m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, transient%residual]
-            if (self%plan%heat%active) row = [row, step_heat(self)]
+            if (self%plan%heat%active) then
+               call step_heat(self, heat_ratio_of_step, status)
+               if (status%failed()) return
+               row = [row, heat_ratio_of_step]
+            end if
          end if
          numbers = m%touching%numbers()
          row = [row, numbers(:known_names(self%plan%lubricant))]

@@ -8,6 +8,7 @@ module test_solver
    use ehl_read_case, only: read_case
    use ehl_contact, only: contact_t
    use ehl_contact_factory, only: new_contact
+   use ehl_contact_run, only: contact_run_t
    use ehl_deflection, only: deflection_t
    use ehl_deflection_factory, only: new_deflection
    use ehl_reynolds, only: update_coefficients
@@ -21,7 +22,7 @@ module test_solver
    use ehl_relaxation, only: usual_log_change, relax
    use ehl_solver, only: solver_t
    use ehl_scales, only: scales_t
-   use ehl_status, only: status_t
+   use ehl_status, only: ehl_no_memory, status_t
    use ehl_step_accuracy, only: max_tolerance_ratio, step_tolerance
    use ehl_wedge, only: wedge_narrow, wedge_steady
    use ehl_workspace, only: line_width, workspace_t
@@ -51,7 +52,27 @@ contains
       call threads_change_nothing()
       call inactive_nodes_do_not_change()
       call nan_is_no_cavitation()
+      call step_without_memory()
    end subroutine run_solver
+
+   !> A time step without memory for the frictional heating fails
+   subroutine step_without_memory()
+      type(contact_run_t) :: run
+      type(status_t) :: status
+
+      run%plan%heat%active = .true.
+      run%smooth%n = 1
+      allocate (run%hierarchy%levels(1))
+      ! more nodes than any address space holds
+      run%hierarchy%levels(1)%grid = grid_t(nx=huge(1), ny=huge(1))
+      run%transient%friction_smooth = 1.0_dp
+      run%transient%mean%period = 1.0_dp
+      run%transient%mean%time_step = 1.0_dp
+      call run%history%init([character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "cycles", &
+                             "residual", "heat_ratio"])
+      call run%record_step(status)
+      call is_equal(status%code, ehl_no_memory, "no memory for the heating of a step")
+   end subroutine step_without_memory
 
    !> Zhang et al. 2019, Table 1: a = 0.41540 mm, p_h = 1.6602 GPa, M = 1000.0, L = 10.024
    subroutine operating_point_of_table_1()
