@@ -58,8 +58,8 @@ contains
       real(c_double), intent(in) :: radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
                                     moes_m, moes_l
       integer(c_int), intent(in) :: border, smooth, thins, points, points_y, reverses, may_reduce
-      !> Domain; maximum size of the contact under a duty over that of the case
-      real(c_double), intent(in) :: domain(3), widening
+      !> Domain; maximum half lengths of the contact under a duty over those of the case
+      real(c_double), intent(in) :: domain(3), widening(2)
       integer(c_int), intent(out) :: border_out, points_out, points_y_out
       real(c_double), intent(out) :: domain_out(3)
       type(case_t) :: input

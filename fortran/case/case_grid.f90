@@ -3,11 +3,13 @@
 module ehl_case_grid
    use ehl_case, only: case_t, grid_case_t
    use ehl_contact, only: contact_t
+   use ehl_contact_factory, only: new_contact
    use ehl_domain, only: domain_t, flooded_by_default, needed_domain
    use ehl_grid, only: find_levels, long_x
    use ehl_grid_error, only: relative_errors
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_t
+   use ehl_scales, only: scales_t
    implicit none (type, external)
    private
    public :: blunt_spike, high_spike, grid_keys, fill_grid, duty_widening
@@ -49,8 +51,8 @@ contains
       !> Whether each of grid_keys is given
       logical, intent(in) :: given(5)
       type(grid_case_t), intent(inout) :: grid
-      !> Duty: largest size of the contact over that of the case; whether the flow reverses
-      real(dp), intent(in) :: widening
+      !> Duty: largest half lengths of the contact along X and Y over those of the case; whether the flow reverses
+      real(dp), intent(in) :: widening(2)
       logical, intent(in) :: reverses
       !> Whether a wide contact may have fewer nodes: it is steady and flooded, without a boundary film
       logical, intent(in) :: may_reduce
@@ -59,9 +61,9 @@ contains
 
       if (.not. given(1) .and. flooded_by_default(contact, point) .and. contact%is_even()) grid%border = "flooded"
       domain = needed_domain(contact, point, grid%border == "flooded")
-      if (.not. given(2)) grid%x_inlet = widening*domain%inlet
-      if (.not. given(3)) grid%x_outlet = merge(-grid%x_inlet, widening*domain%outlet, reverses)
-      if (.not. given(4)) grid%y_extent = widening*domain%side
+      if (.not. given(2)) grid%x_inlet = widening(1)*domain%inlet
+      if (.not. given(3)) grid%x_outlet = merge(-grid%x_inlet, widening(1)*domain%outlet, reverses)
+      if (.not. given(4)) grid%y_extent = widening(2)*domain%side
       if (smooth .and. .not. given(5) .and. .not. grid%target_error > 0.0_dp) then
          grid%points = points(contact, point, grid, may_reduce)
       end if
@@ -72,7 +74,10 @@ contains
       else
          blunt = blunt .and. (point%moes_l < high_spike .or. thins)
       end if
-      if (.not. grid%points_y > 0) grid%points_y = rows(contact, smooth, smooth .and. blunt, grid)
+      if (.not. grid%points_y > 0) then
+         grid%points_y = rows(contact, smooth, smooth .and. blunt, &
+                              contact%is_round() .and. .not. abs(widening(2) - widening(1)) > 0.0_dp, grid)
+      end if
    end subroutine fill_grid
 
    !> Default number of nodes along X, by the a-priori error of H_c
@@ -116,33 +121,60 @@ contains
       if (moes_l < 7.0_dp) blunt_spike = huge(blunt_spike)
    end function blunt_spike
 
-   !> Largest size of the dry contact under the duty over that of the case
-   pure real(dp) function duty_widening(input)
+   !> Largest half lengths of the dry contact along X and Y under the duty over those of the case
+   function duty_widening(input) result(widening)
       type(case_t), intent(in) :: input
-      real(dp), allocatable :: load(:), radius(:)
+      real(dp) :: widening(2)
+      real(dp), allocatable :: load(:), radius(:), across(:)
+      integer :: k
 
-      duty_widening = 1.0_dp
+      widening = 1.0_dp
       if (.not. input%duty%active()) return
       load = input%duty%list("load")
       radius = input%duty%list("radius_x")
+      across = input%duty%list("radius_y")
       if (size(load) == 0) load = 0.0_dp*input%duty%time + input%contact%size_of_load()
       if (size(radius) == 0) radius = 0.0_dp*input%duty%time + input%contact%radius_x
       if (size(load) /= size(radius)) return
-      duty_widening = max(1.0_dp, maxval(load*radius)/(input%contact%size_of_load()*input%contact%radius_x)) &
-                      **merge(1.0_dp/2.0_dp, 1.0_dp/3.0_dp, input%contact%is_cylinder())
+      if (size(across) == 0 .or. input%contact%is_cylinder()) then
+         widening = max(1.0_dp, maxval(load*radius)/(input%contact%size_of_load()*input%contact%radius_x)) &
+                    **merge(1.0_dp/2.0_dp, 1.0_dp/3.0_dp, input%contact%is_cylinder())
+         return
+      end if
+      if (size(across) /= size(load) .or. .not. input%contact%si) return
+      if (minval(load) <= 0.0_dp .or. minval(radius) <= 0.0_dp .or. minval(across) <= 0.0_dp) return
+      do k = 1, size(load)
+         widening = max(widening, half_lengths(load(k), radius(k), radius(k)/across(k)) &
+                        /half_lengths(input%contact%load, input%contact%radius_x, input%contact%radius_ratio))
+      end do
+
+   contains
+
+      !> Half lengths of the dry contact along X and Y [m]
+      function half_lengths(load, radius, ratio) result(lengths)
+         real(dp), intent(in) :: load, radius, ratio
+         real(dp) :: lengths(2)
+         class(contact_t), allocatable :: contact
+         type(scales_t) :: scales
+
+         call new_contact(ratio, input%contact%angle, contact)
+         scales = contact%scales(load, radius, input%contact%reduced_modulus)
+         lengths = scales%length*contact%reach
+      end function half_lengths
    end function duty_widening
 
-   !> Nodes along Y: as many as along X in a round contact, 1 in a line contact, otherwise from the ratio hy/hx of the cells
-   pure integer function rows(contact, smooth, blunt, grid)
+   !> Nodes along Y: as many as along X in a contact that remains round, 1 in a line contact, otherwise from the ratio hy/hx of the
+   !> cells
+   pure integer function rows(contact, smooth, blunt, round, grid)
       class(contact_t), intent(in) :: contact
-      !> Whether both surfaces are smooth; whether the pressure spike is blunt
-      logical, intent(in) :: smooth, blunt
+      !> Whether both surfaces are smooth; whether the pressure spike is blunt; whether the contact is round at any time
+      logical, intent(in) :: smooth, blunt, round
       type(grid_case_t), intent(in) :: grid
       integer :: levels, intervals(2), halved, multiple
       real(dp) :: target, ratio
 
       rows = merge(1, grid%points, contact%is_line())
-      if (contact%is_round() .or. contact%is_line()) return
+      if (round .or. contact%is_line()) return
       call find_levels(rows, rows, levels, intervals)
       if (levels == 0) return
       halved = (rows - 1)/intervals(1)

@@ -218,19 +218,31 @@ def refuse_duty(settings: Mapping[str, object]) -> None:
         )
 
 
-def widening(settings: Settings) -> float:
-    """Give the maximum size of the dry contact under the duty over that of the case.
-
-    By load and radius_x; an effect of radius_y is not included.
-    """
+def widening(settings: Settings) -> tuple[float, float]:
+    """Give the maximum half lengths of the dry contact along X and Y over those of the case."""
     duty, contact = settings.duty, settings.contact
     load = contact.load_per_length if contact.is_line else contact.load
     loads = duty.load or (load,) * len(duty.time)
     radii = duty.radius_x or (contact.radius_x,) * len(duty.time)
     if not duty.time or len(loads) != len(radii):
-        return 1.0
-    largest = max(w * r for w, r in zip(loads, radii, strict=True)) / (load * contact.radius_x)
-    return float(max(1.0, largest) ** (1.0 / 2.0 if contact.is_cylinder else 1.0 / 3.0))
+        return 1.0, 1.0
+    if not duty.radius_y or contact.is_cylinder:
+        largest = max(w * r for w, r in zip(loads, radii, strict=True)) / (load * contact.radius_x)
+        both = float(max(1.0, largest) ** (1.0 / 2.0 if contact.is_cylinder else 1.0 / 3.0))
+        return both, both
+    if len(duty.radius_y) != len(loads) or not contact.si:
+        return 1.0, 1.0
+    if min(*loads, *radii, *duty.radius_y) <= 0.0:
+        return 1.0, 1.0
+    at_first = physics.half_lengths(settings, load, contact.radius_x, contact.radius_y)
+    along, across = zip(
+        *(
+            physics.half_lengths(settings, *values)
+            for values in zip(loads, radii, duty.radius_y, strict=True)
+        ),
+        strict=True,
+    )
+    return max(1.0, max(along) / at_first[0]), max(1.0, max(across) / at_first[1])
 
 
 def reverses(settings: Settings) -> bool:

@@ -231,8 +231,8 @@ class Grid:
     points_y: int = whole(
         0,
         "0 or [9, 40961]",
-        "nodes along Y, coarsened as often as points; default: points in a round "
-        "contact, otherwise from the shape of the cells",
+        "nodes along Y, coarsened as often as points; default: points in a contact that remains "
+        "round, otherwise from the shape of the cells",
     )
     x_inlet: float = real(-2.5, "a", "[-1e4, -1.05]", "inlet boundary X; default from M and L")
     x_outlet: float = real(1.5, "a", "[1.05, 1e4]", "outlet boundary X; default from M and L")

@@ -3,6 +3,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -72,19 +73,30 @@ def _point(values: Contact) -> Point:
     return Point(*numbers, *reach.tolist())
 
 
+def half_lengths(
+    settings: Settings, load: float, radius_x: float, radius_y: float
+) -> tuple[float, float]:
+    """Half lengths of the dry contact along X and Y [m] at another load and other radii."""
+    other = replace(
+        settings.contact, load=load, radius_x=radius_x, radius_ratio=radius_x / radius_y
+    )
+    result = point(replace(settings, contact=other))
+    return result.length * result.reach_x, result.length * result.reach_y
+
+
 def grid_defaults(
     settings: Settings,
     border: str,
     ends: Sequence[float | None],
     points: int,
     points_y: int,
-    widening: float = 1.0,
+    widening: tuple[float, float] = (1.0, 1.0),
     reverses: bool = False,
 ) -> Domain:
     """Border, domain and nodes that a contact needs; '', None and 0 are to be derived.
 
-    A duty enlarges the contact up to `widening` times; if the motion `reverses`, the domain is
-    symmetric.
+    A duty enlarges the contact up to `widening` times along X and Y; if the motion `reverses`, the
+    domain is symmetric.
 
     Smooth surfaces have twice as many nodes along X if the film would otherwise be inaccurate. A
     wide contact that is steady and flooded, without a boundary film, has fewer nodes if the film
@@ -108,7 +120,7 @@ def _grid(
     points: int,
     points_y: int,
     kind: tuple[bool, bool],
-    moving: tuple[float, bool, bool],
+    moving: tuple[tuple[float, float], bool, bool],
 ) -> Domain:
     given = [math.nan if end is None else end for end in ends]
     number = BORDERS.index(border)

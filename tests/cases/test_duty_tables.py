@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Keys and tables of a duty: files, units, refusals."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from test_duty import POINT, run
 
 import pyehl
+from pyehl.theory.operating import OperatingPoint
 
 TABLE = "time [ms], load [N], mean_velocity [m/s]\n0, 40, 2\n1, 30, 1\n2, 40, 2\n"
 
@@ -101,3 +103,33 @@ def test_other_commands_refuse_a_duty():
 def test_a_load_below_the_minimum_is_refused():
     with pytest.raises(pyehl.InputError, match=r"at least 182\.85, 0\.001 of that of the case"):
         run([0.0, 1.0], load=[1.0, 5e-4])
+
+
+def test_default_domain_contains_a_contact_that_widens_across(drive, tmp_path: Path):
+    """The sides are twice as far from the centre as the contact reaches, by both drivers."""
+    contact = {"load": 50.0, "mean_velocity": 1.0, "radius": 0.01, "slide_to_roll": 0.0}
+    duty = {"time": [0.0, 2e-4, 4e-4], "radius_y": [0.01, 0.08, 0.08]}
+    case = pyehl.Case(contact=contact, grid={"points": 33}, duty=duty)
+    grid, first = case["grid"], OperatingPoint(load=50.0, mean_velocity=1.0, radius=0.01)
+    along, across = replace(first, radius_ratio=0.125).semi_axes
+    assert along < first.hertz_radius
+    assert grid["x_inlet"] == pyehl.Case(contact=contact)["grid"]["x_inlet"]
+    sides = 2.0 * across / first.hertz_radius
+    assert grid["y_extent"] == pytest.approx(sides, rel=1e-6)
+    # cells as square as in the round contact
+    assert grid["points_y"] == pytest.approx(32 * 2.0 * sides / 4.0 + 1, abs=4)
+    # with both radii in proportion the contact keeps its shape
+    larger = {"time": [0.0, 1e-4], "radius_x": [0.01, 0.02], "radius_y": [0.01, 0.02]}
+    other = pyehl.Case(contact=contact, grid={"points": 33}, duty=larger)["grid"]
+    assert other["x_inlet"] == pytest.approx(2.0 ** (1 / 3) * grid["x_inlet"], rel=1e-12)
+    assert other["y_extent"] == pytest.approx(2.0 ** (1 / 3) * 2.0, rel=1e-12)
+    assert other["points_y"] == 33
+
+    data = pyehl.solve(case, output=tmp_path / "pyehl")
+    assert np.abs(data.history_Y_min.values).max() < 0.6 * grid["y_extent"]
+    derived = ("y_extent", "points_y", "x_inlet", "x_outlet", "border")
+    lines = [line for line in case.text.splitlines() if line.split("=")[0].strip() not in derived]
+    (tmp_path / "case.nml").write_text("\n".join(lines) + "\n")
+    assert drive("ehl", "case.nml", "-o", "ehl").returncode == 0
+    one, two = ((tmp_path / by / "history.csv").read_text() for by in ("ehl", "pyehl"))
+    assert one == two
