@@ -13,6 +13,7 @@ from typing import Any, Self
 from pyehl import display, namelist
 from pyehl.case.complete import complete
 from pyehl.case.reader import read
+from pyehl.case.roller import BODIES
 from pyehl.case.source import read_text
 from pyehl.case.surfaces import without_fractal
 from pyehl.case.writer import case_text
@@ -183,13 +184,16 @@ def resolved_case(text: str) -> Case:
 
 
 def files_of(settings: Settings) -> list[str]:
-    """Give the files of a resolved case: height maps, tables of viscosities and of a duty.
+    """Give the files of a resolved case: height maps and tables.
 
-    Tables of roller profiles are not among them: a resolved case has their values.
+    Tables are those of viscosities, of a duty and, unless the file is missing, of roller profiles:
+    a resolved case has their values.
     """
     maps = [group["file"] for group in settings.values() if group.get("kind") == "map"]
     tables = settings["lubricant"].get("table"), settings.get("duty", {}).get("file")
-    return [str(name) for name in (*maps, *tables) if name]
+    profiles = [settings["contact"].get(f"profile_file{end}") for end in BODIES]
+    profiles = [name for name in profiles if name and os.path.isfile(name)]
+    return [str(name) for name in (*maps, *tables, *profiles) if name]
 
 
 def exchanged(case: Case) -> Case:

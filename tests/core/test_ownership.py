@@ -16,6 +16,7 @@ import stress
 
 import pyehl
 from pyehl import cli
+from pyehl.case import files_of
 from pyehl.measured_response import measurement
 
 SMOOTH = (
@@ -326,6 +327,24 @@ def test_table_among_the_results_is_kept(call: Call, tmp_path: Path):
     before = tree(tmp_path)
     refused(call("run", "-o", "out"), "history.csv")
     assert tree(tmp_path) == before
+
+
+@pytest.mark.parametrize("end", ["", "_2"])
+def test_profile_among_the_results_is_kept(call: Call, tmp_path: Path, end: str):
+    roller = "&contact shape = 'roller' length = 0.01 load = 2000.0 radius = 0.005 "
+    grid = "/\n&grid points = 65 /\n"
+    Path("first.nml").write_text(f"{roller} profile = 'crown' crown_radius = 1.0 {grid}")
+    assert call("run", "-o", "out", case="first.nml").returncode == 0
+    Path("out/history.csv").write_text("-0.006, 1e-5\n0.0, 0.0\n0.006, 1e-5\n")
+    table = f"profile{end} = 'file' profile_file{end} = 'out/history.csv'"
+    Path("case.nml").write_text(f"{roller} {table} {grid}")
+    before = tree(tmp_path)
+    refused(call("run", "-o", "out"), "history.csv")
+    assert tree(tmp_path) == before
+    # a resolved case has the values of its table
+    case = pyehl.Case("case.nml")
+    Path("out/history.csv").unlink()
+    assert files_of(case.resolve()) == []
 
 
 def test_changed_map_is_foreign(call: Call, tmp_path: Path):
