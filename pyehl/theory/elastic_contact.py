@@ -5,8 +5,10 @@ With the gap g without solid contact, the contact pressure p and a linear compli
 
     p >= 0,   g + G p + s >= 0,   p (g + G p + s) = 0,   s >= 0,   sum p <= load:
 
-s lifts all nodes alike and is zero unless the sum of p would exceed the load, or the iteration with
-s = 0 fails: then the sum of p is the load. The iteration also finds the nodes in contact, p > 0.
+s lifts all nodes alike and is zero unless the sum of p would exceed the load: then the sum of p is
+the load. The iteration also finds the nodes in contact, p > 0. If that with s = 0 fails, one with
+the load as the sum of p follows; a negative s is then no solution, because contact with s = 0 would
+sustain less than the load.
 """
 
 import math
@@ -47,6 +49,7 @@ class SolidContact:
 
     pressure: Array  # p (m, n)
     lift: Array  # G p + s (m, n)
+    uniform: float = 0.0  # s
 
 
 def contact_pressures(
@@ -69,6 +72,8 @@ def contact_pressures(
         result = _solved(
             gap, allowed, compliance, scale, guess * (load / guess.sum()), fixed_load=True
         )
+        if result is not None and result.uniform < -DEPTH_TOLERANCE * scale:
+            return None
     return result
 
 
@@ -92,7 +97,7 @@ def _solved(
         square = float(np.square(error[in_contact]).sum())
         rms = math.sqrt(square / max(1, int(in_contact.sum())))
         if rms < FILM_TOLERANCE * scale and -float(error.min()) < DEPTH_TOLERANCE * scale:
-            return SolidContact(pressure, lift + raised)
+            return SolidContact(pressure, lift + raised, raised)
         step = np.where(in_contact, error + (0.0 if restart else square / last) * step, 0.0)
         last = square
         change = compliance(step)

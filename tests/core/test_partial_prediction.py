@@ -2,6 +2,7 @@
 """Prediction of contact at a boundary film."""
 
 import functools
+import math
 
 import numpy as np
 import pandas as pd
@@ -18,6 +19,7 @@ from pyehl.prediction import mixed_lubrication
 from pyehl.prediction.predict import predict
 from pyehl.schema import summary_of as scalars_of
 from pyehl.studies.curve import CONTACT, CONTACT_EHL, EMPIRICAL, UNITS
+from pyehl.theory import elastic_contact
 from pyehl.theory.elastic_contact import Compliance, contact_pressures
 from pyehl.theory.friction import OF_ROUGH
 from pyehl.theory.transition import BREAKDOWN, FULL_FILM, Curve, lift_off
@@ -354,6 +356,33 @@ def test_obstacle(most):
         assert rise.min() > 0.0
     else:
         assert np.abs(rise).max() < 1e-12
+
+
+@pytest.mark.parametrize("share", [0.5, 2.0])
+def test_contact_sustains_no_more_than_it_can(monkeypatch, share):
+    """Where the iteration without a uniform lift fails, one with the load may solve the problem.
+
+    Not if the contact sustains less than the load: pressures of that sum would lower the film.
+    """
+    gap = np.random.default_rng(3).standard_normal((48, 48)) + 0.5
+    q = np.hypot(np.fft.rfftfreq(60)[:, None], np.fft.fftfreq(60)[None])
+    compliance = Compliance(np.divide(1.0, q, out=np.zeros_like(q), where=q > 0.0), (60, 60))
+    free = contact_pressures(gap, compliance, 0.1, math.inf)
+    assert free is not None
+    solved = elastic_contact._solved
+
+    def failing(*arguments, fixed_load=False):
+        return solved(*arguments, fixed_load=True) if fixed_load else None
+
+    monkeypatch.setattr(elastic_contact, "_solved", failing)
+    load = share * float(free.pressure.sum())
+    result = contact_pressures(gap, compliance, 0.1, load)
+    if share > 1.0:
+        assert result is None
+    else:
+        assert result is not None
+        assert result.pressure.sum() == pytest.approx(load)
+        assert (result.lift - compliance(result.pressure)).min() > 0.0
 
 
 def test_lift_off_with_its_error():
