@@ -180,7 +180,7 @@ contains
 
       !> Apply the rule above to a folder that can be written
       subroutine apply_rule()
-         logical :: ours, read_from
+         logical :: replaceable, is_read
          integer :: k
 
          if (found%kind /= "" .and. found%kind /= self%kind) then
@@ -189,11 +189,11 @@ contains
          end if
          do k = 1, size(found%entries)
             associate (name => found%entries(k)%text)
-               ours = is_replaceable(found, name, found%path)
-               read_from = is_input(self, found, name)
-               if (ours .and. read_from) then
+               replaceable = is_replaceable(found, name, found%path)
+               is_read = is_input(self, found, name)
+               if (replaceable .and. is_read) then
                   call refuse("'"//name//"' in it is read by this command", any_other)
-               else if (.not. (ours .or. listed(name, self%kept) .or. index(name, leftover) == 1)) then
+               else if (.not. (replaceable .or. listed(name, self%kept) .or. index(name, leftover) == 1)) then
                   if (listed(name, self%names)) then
                      call refuse("holds '"//name//"', which "//command_of(self%kind)//" did not write, and "// &
                                  "the result needs this name", any_other)
@@ -207,10 +207,10 @@ contains
          end do
       end subroutine apply_rule
 
-      subroutine refuse(what, way_out)
-         character(len=*), intent(in) :: what, way_out
+      subroutine refuse(what, expected)
+         character(len=*), intent(in) :: what, expected
 
-         call status%fail(ehl_bad_input, self%folder//": error: "//what//newline//way_out)
+         call status%fail(ehl_bad_input, self%folder//": error: "//what//newline//expected)
       end subroutine refuse
    end subroutine inspect
 

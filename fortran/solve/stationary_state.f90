@@ -20,8 +20,8 @@ module ehl_stationary_state
    private
    public :: stationary_t
 
-   !> Relative algebraic error of the friction integral over the required accuracy; that allowed at an intermediate fraction of
-   !> the roughness
+   !> Maximum algebraic error by `estimate_error`: with all of the roughness, over the required accuracy; at an intermediate
+   !> fraction of the roughness, independent of it
    real(dp), parameter :: friction_tolerance = 1.0e-3_dp, fraction_tolerance = 3.0e-2_dp
    !> Maximum relative error of the force balance that scaling the pressure may correct at a boundary film
    real(dp), parameter :: small_load_error = 1.0e-5_dp
@@ -104,7 +104,7 @@ contains
       if (level%boundary%touches()) self%next_cycle = damped_cycle(self%cycle)
    end subroutine begin_cycle
 
-   !> Estimate the algebraic error from the change of the friction, or of the load share, in the last cycle
+   !> Estimate the algebraic error from the change of the friction, relative to it, or of the load share, in the last cycle
    subroutine estimate_error(self, before)
       class(stationary_t), intent(inout) :: self
       !> Results before the cycle

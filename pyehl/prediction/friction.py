@@ -68,8 +68,10 @@ class RoughFriction:
     mu_ratio: float
     mu_ratio_min: float
     mu_ratio_max: float
-    # Error of an interpolation from every second position, relative to the mean: an upper estimate
-    # of the error due to the number of positions. NaN for an odd number
+    # Estimated error due to the number of positions, relative to the mean; NaN: not known. Of one
+    # tile that of an interpolation from every second position, of two tiles half the difference of
+    # the means over every second position and over the others, or if it is larger the difference
+    # from the mean over the lattice before
     position_error: float
     # (n,) displacement of each tile [m], equally spaced over its length; for two rough surfaces
     # over their common period, or without one in the order of a lattice
