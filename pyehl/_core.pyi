@@ -113,11 +113,13 @@ class _Surfaces:
         longest: float,
         gaussian: int,
     ) -> tuple[int, bytes]: ...
+    def wave_tile(self, waves: _Single, tile: _Single) -> None: ...
     def driven_waves(
         self,
         tile: _Single,
         rows: _Indices,
         columns: _Indices,
+        span: _Indices,
         weight: _Single,
         shift: int,
         total: _Single,
@@ -127,6 +129,7 @@ class _Surfaces:
         tile: _Single,
         low: _Indices,
         columns: _Indices,
+        span: _Indices,
         between: _Single,
         weight: _Single,
         total: _Single,
@@ -137,15 +140,33 @@ class _Surfaces:
         beside: _Single,
         low: _Indices,
         columns: _Indices,
+        span: _Indices,
         between: _Single,
         weight: _Single,
         expansion: _Single,
         shift: int,
         total: _Single,
     ) -> None: ...
-    def polynomials(
-        self, values: _Single, coefficients: _Single, place: _Indices, total: _Single
+    def polynomials(self, values: _Single, coefficients: _Single, sums: _Single) -> None: ...
+    def at_places(self, values: _Single, place: _Indices, total: _Single) -> None: ...
+    def second_order(
+        self, gain: _Array, variance: _Array, span: _Indices, total: _Single
     ) -> None: ...
+    def film_pressure(
+        self,
+        change: _Single,
+        place: _Indices,
+        smooth: _Array,
+        smooth_pressure: _Array,
+        limit: float,
+        factor: float,
+        ends: float,
+        film: _Array,
+        pressure: _Array,
+        increase: _Single,
+        counts: _Indices,
+    ) -> None: ...
+    def ring_loads(self, ring: _Indices, pressure: _Array) -> int: ...
     def film_moved(self, *given: _Array | _Indices) -> None: ...
 
 class _Lubricants:

@@ -32,7 +32,7 @@ def report(prediction: Prediction) -> str:
         ratio = f"mu_r/mu_s from {f.mu_ratio_min:.3f} to {f.mu_ratio_max:.3f}"
         lines += [
             f"passage    {ratio if math.isfinite(f.mu_ratio) else values['mu_ratio_error_note']}"
-            f"   [{f.passage.size} positions, {prediction.seconds * 1e3:.0f} ms]",
+            f"   [{f.passage.size} positions, {values['wall_seconds'] * 1e3:.0f} ms]",
             f"           {values['note']}",
         ]
         if values["mu"] is not None:

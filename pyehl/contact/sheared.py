@@ -8,6 +8,7 @@ Lengths along the surface are scaled by a, films by a^2/R, pressures by p_h.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -85,7 +86,8 @@ class ShearedContact:
     def stress(self, pressure: Array, film: Array) -> Array:
         """Shear stress [Pa]; for a Newtonian oil divided by eta0 and the sliding speed."""
         pressure = pressure * self.operating.hertz_pressure
-        ratio = self.lubricant.viscosity_ratio(pressure) / (film * self.operating.film_scale)
+        ratio = self.lubricant.viscosity_ratio(pressure)
+        ratio /= film * self.operating.film_scale
         if not self.thins:
             return ratio
         newtonian = ratio * (self.lubricant.viscosity * self.operating.sliding_speed)
@@ -187,6 +189,18 @@ class HertzContact(ShearedContact):
         self.count += 1
         with np.errstate(over="ignore"):
             return float(self.stress(pressure, film).sum()) / self.smooth
+
+    def frictions(self, positions: Sequence[tuple[float, float]]) -> list[float]:
+        """Give `friction` at some positions."""
+        return [self.friction(position) for position in positions]
+
+    def ratios(self, positions: Sequence[tuple[float, float]]) -> list[float]:
+        """Give the same."""
+        return self.frictions(positions)
+
+    def observe(self, positions: Sequence[tuple[float, float]]) -> None:
+        """Update the extremes by some positions."""
+        self.frictions(positions)
 
 
 def _lattice(radius: float, pixels: int) -> tuple[Indices, int]:

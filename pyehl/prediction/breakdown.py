@@ -14,7 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyehl import lengths
-from pyehl.prediction.friction import below, mean, run
+from pyehl.prediction.bands import LongerWaves
+from pyehl.prediction.friction import mean, run
 from pyehl.prediction.model import KNOWN_RATIO, Model, model_error
 from pyehl.prediction.relative_positions import RelativePositions
 from pyehl.prediction.response import FILM_ENDS
@@ -311,11 +312,12 @@ def ways_into_range(model: Model) -> str:
     waves, radius, ways = model.components(), model.operating.hertz_radius, []
     shortest = min(min(wave.spectrum.pixel) for wave in waves)
     longest = 2.0 * math.pi / min(float(w.spectrum.q[w.spectrum.q > 0].min()) for w in waves)
+    longer = LongerWaves(model, waves)
     for numbers in choices(len(model.surfaces)):
 
         def ratio(length: float, numbers: tuple[int, ...] = numbers) -> float:
             limit = 2.0 * math.pi / length
-            return below(model, waves, [limit if k in numbers else math.inf for k in model.order])
+            return longer.ratio([limit if k in numbers else math.inf for k in model.order])
 
         def good(length: float, numbers: tuple[int, ...] = numbers) -> bool:
             result = run(model.without_shorter(numbers, length), 0, brief=True).friction

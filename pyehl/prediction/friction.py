@@ -14,12 +14,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from pyehl.contact.sheared import HertzContact, ShearedContact, thins
+from pyehl.prediction.bands import Bands, LongerWaves, with_factors
 from pyehl.prediction.model import PIXEL_POINTS, Components, Model
-from pyehl.prediction.moving_tile import Component
 from pyehl.prediction.relative_positions import Passage, RelativePositions, TilePositions
 from pyehl.prediction.response import Response
 from pyehl.prediction.rough_contact import RoughContact
-from pyehl.prediction.spectrum import Band, joining, longer_waves
+from pyehl.prediction.spectrum import Band
 from pyehl.surfaces import interpolated, track_offsets
 from pyehl.theory.heat import Heat
 from pyehl.theory.line_contact import AnyContact
@@ -227,11 +227,19 @@ class MixedFilm:
 
 
 class Outcome(NamedTuple):
-    """Friction over a passage, mean and spread over tracks (NaN: none), contributions of bands."""
+    """Friction over a passage, mean and spread over tracks (NaN: none), contributions of bands.
+
+    The latter are computed when they are asked for.
+    """
 
     friction: RoughFriction
     tracks: tuple[float, float] = (math.nan, math.nan)
     bands: Sequence[Band] = ()
+
+    @property
+    def bands_seconds(self) -> float:
+        """Wall time of the bands [s]; 0 if they are not computed."""
+        return self.bands.seconds if isinstance(self.bands, Bands) else 0.0
 
 
 def with_contact(result: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]:
@@ -296,21 +304,20 @@ def run(
         both = tuple(model.responses())
         friction = replace(alone, responses=both, shifts=alone.shifts * 2)
         return together._replace(friction=friction)
-    waves = waves or model.components()
+    waves = with_factors(model, waves or model.components())
     positions = model.positions(waves)
     with np.errstate(over="ignore", invalid="ignore"):
         contact = model.rough_contact(waves)
         limit = model.options.film_limit / model.operating.film_scale
         left = [(w.spectrum.power, np.abs(w.at_centre())) for w in waves]
         contact.watch(film_levels(limit, left, [w.velocity_ratio for w in waves]))
-        passage = positions.passage(contact.friction, model.options.positions, MAX_RATIO)
+        passage = positions.passage(contact, model.options.positions, MAX_RATIO)
         result = _result(model, contact, waves, passage)
         if result.status != "predicted":
             return Outcome(result)
         ratios = _over_tracks(model, contact, waves, positions, tracks, result.mu_ratio)
-        bands = _bands(model, waves, result.mu_ratio, brief=brief)
     over = (float(np.mean(ratios)), float(np.std(ratios))) if tracks else (math.nan, math.nan)
-    return Outcome(result, over, bands)
+    return Outcome(result, over, Bands(model, waves, contact, result.mu_ratio, brief=brief))
 
 
 def _over_tracks(
@@ -323,20 +330,19 @@ def _over_tracks(
 ) -> list[float]:
     """mu_r/mu_s on a number of tracks; `first` is that on the track of the case."""
     offsets = [track_offsets(one.topography, tracks) if tracks else [] for one in model.in_order]
-    if len(waves) == 1:
+    if isinstance(positions, TilePositions):
         pixel = model.surfaces[0].topography.length_y / waves[0].spectrum.shape[1]
         stride = model.stride_of(waves[0].spectrum, PIXEL_POINTS)
         moved = [(d, round(d / (stride * pixel)) * stride) for d in offsets[0]]
         return [
-            first if d == 0.0 else positions.short_mean(contact.friction, track)
-            for d, track in moved
+            first if d == 0.0 else positions.short_mean(contact.ratios, track) for d, track in moved
         ]
     # the tracks of both surfaces, in opposite order
     a = model.operating.hertz_radius
     pairs = [(offsets[0][k] / a, offsets[1][-k % tracks] / a) for k in range(tracks)]
     # sorted, so that the order of the surfaces has no effect
     return sorted(
-        positions.short_mean(model.rough_contact(waves, tracks=pair).friction)
+        positions.short_mean(model.rough_contact(waves, tracks=pair, like=contact).ratios)
         if any(pair)
         else first
         for pair in pairs
@@ -349,7 +355,7 @@ def mean(model: Model, waves: Components | None = None) -> float:
         return mean(model.merged)
     waves = waves or model.components()
     with np.errstate(over="ignore", invalid="ignore"):
-        return model.positions(waves).short_mean(model.rough_contact(waves).friction)
+        return model.positions(waves).short_mean(model.rough_contact(waves).ratios)
 
 
 def run_and_below(model: Model, *shortest: float) -> tuple[RoughFriction, list[float]]:
@@ -365,22 +371,8 @@ def run_and_below(model: Model, *shortest: float) -> tuple[RoughFriction, list[f
         return result, []
     limits = [2.0 * math.pi / length for length in shortest]
     with np.errstate(over="ignore", invalid="ignore"):
-        return result, [below(model, waves, [limit] * len(waves)) for limit in limits]
-
-
-def below(model: Model, waves: Components, limits: Sequence[float]) -> float:
-    """mu_r/mu_s of the waves with |q| below a limit [1/a] for each surface, in order.
-
-    The waves are on as few pixels as they need.
-    """
-    kept, powers = [], []
-    for wave, limit in zip(waves, limits, strict=True):
-        spectrum = wave.spectrum
-        few, index = longer_waves(spectrum, limit, model.operating.ellipse.side)
-        powers.append(np.where(spectrum.q < limit, spectrum.power, 0.0))
-        parts = few, wave.transfer.kept(index), wave.edge.below(limit)
-        kept.append(Component(*parts, wave.velocity_ratio))
-    return model.positions(kept).short_mean(model.rough_contact(kept, powers).friction)
+        longer = LongerWaves(model, waves)
+        return result, [longer.ratio([limit] * len(waves)) for limit in limits]
 
 
 def _result(
@@ -417,22 +409,4 @@ def _result(
         load_error=contact.imbalance,
         ended=contact.ended / visited,
         responses=tuple(model.responses(waves)),
-    )
-
-
-def _bands(model: Model, waves: Components, total: float, *, brief: bool) -> list[Band]:
-    """Return the contribution of each octave added to all longer waves; `brief`: of the last."""
-    parts = [
-        (w.spectrum.q, w.spectrum.power, np.abs(w.at_centre()), np.abs(w.pressure_at_centre()))
-        for w in waves
-    ]
-    q, power, deformed, pressure = (
-        np.concatenate([part.ravel() for part in of_all]) for of_all in zip(*parts, strict=True)
-    )
-    return joining(
-        (q, power, deformed, pressure),
-        lambda limit: below(model, waves, [limit] * len(waves)),
-        total,
-        model.operating,
-        brief=brief,
     )

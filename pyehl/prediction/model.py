@@ -24,7 +24,8 @@ tau(p_s + delta p, h_s - rr_d), eq. 13  :meth:`pyehl.contact.sheared.ShearedCont
 friction: integral of tau, eq. 14       :meth:`rough_contact.RoughContact.friction`; model of the
                                         paper: :meth:`pyehl.contact.sheared.HertzContact.friction`
 mean over the passage                   :mod:`relative_positions`
-mu_r/mu_s, tracks, bands                :func:`friction.run`
+mu_r/mu_s, tracks                       :func:`friction.run`
+bands                                   :class:`bands.Bands`
 p_s, h_s: the smooth contact            :func:`pyehl.contact.smooth.solve_contact`
 contact at a boundary film              :func:`mixed_lubrication.partial_film`
 heat of sliding                         :func:`pyehl.contact.smooth.heat_of`
@@ -364,14 +365,20 @@ class Model:
         waves: Components,
         powers: Sequence[Array] | None = None,
         tracks: Sequence[float] = (0.0, 0.0),
+        like: RoughContact | HertzContact | None = None,
     ) -> RoughContact | HertzContact:
         """Make the contact of components; `powers` are those for which their transfers hold.
 
-        `tracks`: displacements of two surfaces across the motion [a].
+        `tracks`: displacements of two surfaces across the motion [a]; `like`: a contact of
+        components of the same shapes and velocities, with which it shares what it can.
         """
         first, of = waves[0], (self.contact, self.operating, self.lubricant)
         if len(waves) > 1:
-            return RoughContact.on_grid(*of, waves, GRID_POINTS, powers, tracks)
+            shared = like if isinstance(like, RoughContact) else None
+            return RoughContact.on_grid(*of, waves, GRID_POINTS, powers, tracks, shared)
+        if isinstance(like, RoughContact) and isinstance(like.tiles[0], PixelTile):
+            tile = like.tiles[0].with_wave(first, self.contact.central_film)
+            return like.with_waves(waves, powers, [tile])
         spectrum, transfer, ratio = first.spectrum, first.transfer, first.velocity_ratio
         if self.options.as_in_paper:
             return HertzContact(

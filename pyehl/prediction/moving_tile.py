@@ -12,6 +12,7 @@ negative. Lengths along the surface are scaled by a, films by a^2/R, pressures b
 
 from __future__ import annotations
 
+import copy
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -153,6 +154,56 @@ REFINEMENT = 4
 
 
 @dataclass(frozen=True, slots=True)
+class WaveFactors:
+    """Loss of film and pressure increase over the roughness, for every component of a tile."""
+
+    driven: list[tuple[Narrow, Narrow]]  # per station
+    free: list[tuple[Narrow, Narrow]]  # the same, [] without free waves
+    # Difference of the free waves on each line from those on the centre line; [] without free waves
+    off_centre: list[tuple[Narrow, Narrow]]
+
+    @classmethod
+    def of(
+        cls,
+        spectrum: Spectrum,
+        transfer: Transfer,
+        central_film: float,
+        velocity_ratio: float,
+        *,
+        on_lines: bool = False,
+    ) -> WaveFactors:
+        """Compute the factors in a contact with a film H_c [a^2/R].
+
+        `on_lines`: for tiles on given lines.
+        """
+        qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
+        gain = transfer.gain(qx, qy, central_film)
+        k = (stiffness(spectrum.q) * gain).astype(np.float32)
+        k_free = (free_stiffness(qx, qy, velocity_ratio) * gain).astype(np.float32)
+        # correction of the mean loss of amplitude by linear interpolation between the points
+        step = spectrum.qx * (np.pi / REFINEMENT / spectrum.qx[-1])
+        bright = (1.0 / (1.0 - np.square(step) / 12.0)).astype(np.float32)[:, np.newaxis]
+
+        def lit(waves: list[Complex]) -> list[Narrow]:
+            return [t.astype(np.complex64) * bright for t in waves]
+
+        def free(waves: list[Complex], pressures: list[Complex]) -> list[tuple[Narrow, Narrow]]:
+            if not pressures:
+                return [(t, -k_free * t) for t in lit(waves)]
+            given = [-one for one in lit([gain * p for p in pressures])]
+            return list(zip(lit(waves), given, strict=True))
+
+        on_stations: list[Complex] = []
+        beside: list[Complex] = []
+        if transfer.line_pressure:
+            on_stations, beside = transfer.free_pressures(qx, qy, velocity_ratio)
+        driven = [(t, k * (1 - t)) for t in (t.astype(np.complex64) for t in transfer.driven)]
+        if on_lines:
+            driven = [(t * bright, pressure * bright) for t, pressure in driven]
+        return cls(driven, free(transfer.free, on_stations), free(transfer.off_centre, beside))
+
+
+@dataclass(frozen=True, slots=True)
 class WaveTiles:
     """Loss of film and pressure increase by driven and free waves as tiles, single precision.
 
@@ -166,72 +217,44 @@ class WaveTiles:
     # motion (n, 2, ny/stride, nx//2 + 1); None without free waves
     off_centre: Narrow | None
     stride: int  # of the columns of the tile
-    bent: bool  # as in :class:`Transfer`
 
     @classmethod
     def of(
         cls,
         spectrum: Spectrum,
-        transfer: Transfer,
-        central_film: float,
-        velocity_ratio: float,
+        factors: WaveFactors,
         stride: int = 1,
         lines: Array | None = None,
     ) -> WaveTiles:
-        """Make the tiles of all waves in a contact with a film H_c [a^2/R].
-
-        On the columns of the tile, or on lines Y (n,) [a].
-        """
-        qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
-        gain = transfer.gain(qx, qy, central_film)
-        k = (stiffness(spectrum.q) * gain).astype(np.float32)
-        k_free = (free_stiffness(qx, qy, velocity_ratio) * gain).astype(np.float32)
+        """Make the tiles of all waves, on the columns of the tile or on lines Y (n,) [a]."""
         narrow = spectrum.single()
         across = None if lines is None else narrow.on_lines(lines)
-        # correction of the mean loss of amplitude by linear interpolation between the points
-        step = spectrum.qx * (np.pi / REFINEMENT / spectrum.qx[-1])
-        bright = (1.0 / (1.0 - np.square(step) / 12.0)).astype(np.float32)[:, np.newaxis]
 
         def tiles(waves: list[tuple[Narrow, Narrow]], refinement: int) -> Single:
             columns = spectrum.shape[1] // stride if lines is None else lines.size
-            shape = spectrum.shape[0] * refinement, columns, 2
-            result = np.empty((len(waves), *shape), dtype=np.float32)
-            for place, pair in zip(result, waves, strict=True):
+            rows = spectrum.shape[0] * refinement
+            result = np.empty((len(waves), rows, columns, 2), dtype=np.float32)
+            both = np.empty((columns, 2, rows), dtype=np.float32)
+            for tile, pair in zip(result, waves, strict=True):
                 for i, factor in enumerate(pair):
-                    place[..., i] = narrow.tile(factor, refinement, stride, across)
+                    along = narrow.along(factor, refinement, stride, across)
+                    np.fft.irfft(along, n=rows, out=both[:, i])  # type: ignore[arg-type]
+                extension.surface_functions.wave_tile(both.T, tile.T)
             return result
-
-        def lit(waves: list[Complex]) -> list[Narrow]:
-            return [t.astype(np.complex64) * bright for t in waves]
-
-        def free(waves: list[Complex], pressures: list[Complex]) -> list[tuple[Narrow, Narrow]]:
-            if not pressures:
-                return [(t, -k_free * t) for t in lit(waves)]
-            given = [-one for one in lit([gain * p for p in pressures])]
-            return list(zip(lit(waves), given, strict=True))
 
         def off_centre() -> Narrow:
             return np.array(
                 [
                     [narrow.along(factor, REFINEMENT, stride, across) for factor in pair]
-                    for pair in free(transfer.off_centre, on_lines)
+                    for pair in factors.off_centre
                 ]
             )
 
-        on_stations: list[Complex] = []
-        on_lines: list[Complex] = []
-        if transfer.line_pressure:
-            on_stations, on_lines = transfer.free_pressures(qx, qy, velocity_ratio)
-
-        driven = [(t, k * (1 - t)) for t in (t.astype(np.complex64) for t in transfer.driven)]
-        if lines is not None:
-            driven = [(t * bright, pressure * bright) for t, pressure in driven]
         return cls(
-            tiles(driven, 1 if lines is None else REFINEMENT),
-            tiles(free(transfer.free, on_stations), REFINEMENT) if transfer.free else None,
-            off_centre() if transfer.off_centre else None,
+            tiles(factors.driven, 1 if lines is None else REFINEMENT),
+            tiles(factors.free, REFINEMENT) if factors.free else None,
+            off_centre() if factors.off_centre else None,
             stride,
-            transfer.bent,
         )
 
     def beside(
@@ -249,8 +272,10 @@ class WaveTiles:
         weights = part[..., np.newaxis, np.newaxis]
         waves = weights[0] * self.off_centre[line, :, columns]
         waves += weights[1] * self.off_centre[line + 1, :, columns]
-        result = np.fft.irfft(waves, n=self.free.shape[1])
-        return np.ascontiguousarray(result.T.swapaxes(1, 2))
+        rows = np.asarray(np.fft.irfft(waves, n=self.free.shape[1]), dtype=np.float32)
+        result = np.empty((rows.shape[2], columns.size, 2), dtype=np.float32)
+        extension.surface_functions.wave_tile(rows.T, result.T)
+        return result
 
 
 Position = tuple[float, float]
@@ -271,6 +296,12 @@ class Component:
     transfer: Transfer
     edge: Edge
     velocity_ratio: float  # of the surface [-]
+    factors: WaveFactors | None = None  # if they are known already
+
+    def wave_factors(self, central_film: float, *, on_lines: bool = False) -> WaveFactors:
+        """Give the factors of its tiles in a contact with a film H_c [a^2/R]."""
+        given = self.spectrum, self.transfer, central_film, self.velocity_ratio
+        return self.factors or WaveFactors.of(*given, on_lines=on_lines)
 
     def at_centre(self) -> Complex:
         """T at X = Y = 0."""
@@ -325,7 +356,7 @@ class PixelTile:
     ) -> None:
         self.wave, self.stride, self.pixel = wave, stride, wave.spectrum.pixel
         ratio, transfer = wave.velocity_ratio, wave.transfer
-        self.waves = WaveTiles.of(wave.spectrum, transfer, central_film, ratio, stride)
+        self.waves = WaveTiles.of(wave.spectrum, wave.wave_factors(central_film), stride)
         self.rows, self.columns = (
             _steps(reach, pixel, n, stride)
             for reach, pixel, n in zip(
@@ -350,8 +381,20 @@ class PixelTile:
         # additional free waves off the centre line, for the last track
         self.beside: dict[int, Single | None] = {}
 
-    def add(self, contact: RoughContact, position: Position, total: Single) -> None:
-        """Add loss of film and pressure increase (m, n, 2); track: a multiple of the stride."""
+    def with_wave(self, wave: Component, central_film: float) -> PixelTile:
+        """Return a tile of other waves on the same pixels."""
+        other = copy.copy(self)
+        other.wave, other.beside = wave, {}
+        other.waves = WaveTiles.of(wave.spectrum, wave.wave_factors(central_film), self.stride)
+        return other
+
+    def add(
+        self, contact: RoughContact, position: Position, spans: NDArray[np.int32], total: Single
+    ) -> None:
+        """Add loss of film and pressure increase (m, n, 2); track: a multiple of the stride.
+
+        `spans` (m, 2): first and last column of each row, from 1.
+        """
         shift, track = (int(pixels) for pixels in position)
         waves = self.waves
         columns = (self.columns - track) // self.stride % waves.driven.shape[2]
@@ -359,10 +402,11 @@ class PixelTile:
         if track not in self.beside:
             self.beside = {track: waves.beside(columns, *two_lines(self.across))}
         extension.surface_functions.driven_waves(
-            waves.driven.T, self.rows, columns, contact.weights.T, shift, total.T
+            waves.driven.T, self.rows, columns, spans.T, contact.weights.T, shift, total.T
         )
         places = self.free_rows, self.between
-        contact.add_free(waves, self.beside[track], places, columns, shift * REFINEMENT, total)
+        beside = self.beside[track]
+        contact.add_free(waves, beside, places, columns, spans, shift * REFINEMENT, total)
 
     def at_edge(self, position: Position) -> tuple[Array, Array]:
         """Effect of the edge in a position, see :meth:`Edge.at`."""
@@ -383,9 +427,8 @@ class LineTile:
         x, y, across = points
         self.edge, self.track, self.number = wave.edge, track, number
         ratio, bent = wave.velocity_ratio, wave.transfer.bent
-        self.waves = WaveTiles.of(
-            wave.spectrum, wave.transfer, central_film, ratio, lines=y - track
-        )
+        factors = wave.wave_factors(central_film, on_lines=True)
+        self.waves = WaveTiles.of(wave.spectrum, factors, lines=y - track)
         self.columns = np.arange(y.size, dtype=np.int32)
         self.beside = self.waves.beside(self.columns, *two_lines(across))
         self.scale = REFINEMENT / wave.spectrum.pixel[0]
@@ -399,14 +442,22 @@ class LineTile:
         low = np.floor(at)
         return low.astype(np.int32), (at - low).astype(np.float32)
 
-    def add(self, contact: RoughContact, position: Position, total: Single) -> None:
+    def add(
+        self, contact: RoughContact, position: Position, spans: NDArray[np.int32], total: Single
+    ) -> None:
         """Add loss of film and pressure increase."""
         shift = position[self.number]
         (rows, between), free = (self._rows(p - shift) for p in (self.places, self.free_places))
         extension.surface_functions.waves_between(
-            self.waves.driven.T, rows[:, 0], self.columns, between[:, 0], contact.weights.T, total.T
+            self.waves.driven.T,
+            rows[:, 0],
+            self.columns,
+            spans.T,
+            between[:, 0],
+            contact.weights.T,
+            total.T,
         )
-        contact.add_free(self.waves, self.beside, free, self.columns, 0, total)
+        contact.add_free(self.waves, self.beside, free, self.columns, spans, 0, total)
 
     def at_edge(self, position: Position) -> tuple[Array, Array]:
         """Effect of the edge in a position, see :meth:`Edge.at`."""

@@ -9,10 +9,11 @@ with n = m^2 - 1. Because m^2 is 1 modulo n, the lattice is the same for either 
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
@@ -22,8 +23,8 @@ from pyehl.surfaces import interpolated
 from pyehl.surfaces.pair import SAME
 from pyehl.types import Array
 
-Friction = Callable[[Position], float]
-"""mu_r/mu_s at a position."""
+Ratios = Callable[[Sequence[Position]], Sequence[float]]
+"""mu_r/mu_s at some positions."""
 
 POSITION_TOLERANCE = 2e-3
 """Relative error of half of the positions below which no more are added: a fifth of the constant
@@ -47,6 +48,16 @@ for the full mean: half and twice as many change mu_r/mu_s of two fractal surfac
 %."""
 
 
+class MovingContact(Protocol):
+    """A contact under moving surfaces."""
+
+    def frictions(self, positions: Sequence[Position]) -> list[float]:
+        """mu_r/mu_s at some positions; minimum film and maximum pressure increase are updated."""
+
+    def observe(self, positions: Sequence[Position]) -> None:
+        """Update minimum film and maximum pressure increase by some positions."""
+
+
 @dataclass(frozen=True, slots=True)
 class Passage:
     """mu_r/mu_s at all positions of a passage."""
@@ -66,12 +77,12 @@ class TilePositions:
     pixels: int
     pixel: float  # [m]
 
-    def short_mean(self, friction: Friction, track: int = 0) -> float:
+    def short_mean(self, ratios: Ratios, track: int = 0) -> float:
         """Mean of mu_r/mu_s over a few positions, on a track displaced by some pixels."""
         steps = np.arange(FIRST_POSITIONS) * (self.pixels // FIRST_POSITIONS)
-        return float(np.mean([friction((int(step), track)) for step in steps]))
+        return float(np.mean(ratios([(int(step), track) for step in steps])))
 
-    def passage(self, friction: Friction, positions: int, largest: float) -> Passage:
+    def passage(self, contact: MovingContact, positions: int, largest: float) -> Passage:
         """Give mu_r/mu_s at equally spaced positions over the length of the tile.
 
         `positions` is their number; 0: as many as the tolerance requires, without refinement if the
@@ -79,28 +90,29 @@ class TilePositions:
         """
         n, error = positions or FIRST_POSITIONS, math.nan
         steps = np.arange(n) * (self.pixels // n)
-        ratios = np.array([friction((int(step), 0)) for step in steps])
+        ratios = np.array(contact.frictions([(int(step), 0) for step in steps]))
         while np.all(np.isfinite(ratios)):
             error = self._undecided(ratios)
             enough = error <= POSITION_TOLERANCE or float(ratios.mean()) > largest
             if positions or enough or self.pixels % (2 * n) or 2 * n > MAX_POSITIONS:
                 break
             between = steps + self.pixels // (2 * n)
-            ratios = np.stack([ratios, [friction((int(step), 0)) for step in between]], 1).ravel()
+            more = contact.frictions([(int(step), 0) for step in between])
+            ratios = np.stack([ratios, more], 1).ravel()
             steps, n, error = np.stack([steps, between], 1).ravel(), 2 * n, math.nan
         if not positions:
-            self._find_extremes(friction, n)
+            self._find_extremes(contact, n)
         return Passage((np.asarray(steps * self.pixel, dtype=float),), ratios, error)
 
-    def _find_extremes(self, friction: Friction, n: int) -> None:
+    def _find_extremes(self, contact: MovingContact, n: int) -> None:
         """Evaluate positions between the `n` of the friction, as many as the extremes require."""
         spacing = self.pixels // n
         between = max(1, EXTREMES // n)
         while spacing % between:
             between -= 1
         for part in range(1, between):
-            for k in range(n):
-                friction((k * spacing + part * (spacing // between), 0))
+            more = part * (spacing // between)
+            contact.observe([(k * spacing + more, 0) for k in range(n)])
 
     @staticmethod
     def _undecided(ratios: Array) -> float:
@@ -158,30 +170,30 @@ class RelativePositions:
         first, second = self.moved(k, n, m)
         return self.fronts[0] + first, self.fronts[1] + second
 
-    def short_mean(self, friction: Friction, track: int = 0) -> float:
+    def short_mean(self, ratios: Ratios) -> float:
         """Mean of mu_r/mu_s over a few positions; the contact defines the tracks."""
         passages = self.passages
         n = PER_PASSAGE * max(passages) if passages else SHORT_LATTICE**2 - 1
-        return float(np.mean([friction(self.shifts(k, n, SHORT_LATTICE)) for k in range(n)]))
+        return float(np.mean(ratios([self.shifts(k, n, SHORT_LATTICE) for k in range(n)])))
 
-    def passage(self, friction: Friction, positions: int, largest: float) -> Passage:
+    def passage(self, contact: MovingContact, positions: int, largest: float) -> Passage:
         """Give mu_r/mu_s over the common period, or on the lattice with the next larger number."""
         n, m, ratios, error = (
-            self._along(friction, positions, largest)
+            self._along(contact, positions, largest)
             if self.passages
-            else self._over_all(friction, positions, largest)
+            else self._over_all(contact, positions, largest)
         )
         moved = np.array([self.moved(k, n, m) for k in range(n)]) * self.radius
         return Passage((moved[:, 0], moved[:, 1]), ratios, error, self.passages is not None)
 
     def _over_all(
-        self, friction: Friction, positions: int, largest: float
+        self, contact: MovingContact, positions: int, largest: float
     ) -> tuple[int, int, Array, float]:
         fewest = math.isqrt(positions) + 1 if positions else 0
         before = math.nan
         for m in [fewest] if positions else LATTICES:
             n = m * m - 1
-            ratios = np.array([friction(self.shifts(k, n, m)) for k in range(n)])
+            ratios = np.array(contact.frictions([self.shifts(k, n, m) for k in range(n)]))
             mean, error = float(ratios.mean()), _undecided(ratios)
             if not math.isfinite(mean) or mean > largest:
                 break
@@ -193,15 +205,15 @@ class RelativePositions:
         return n, m, ratios, error
 
     def _along(
-        self, friction: Friction, positions: int, largest: float
+        self, contact: MovingContact, positions: int, largest: float
     ) -> tuple[int, int, Array, float]:
         n = positions or PER_PASSAGE * max(self.passages or ())
-        ratios = np.array([friction(self.shifts(k, n)) for k in range(n)])
+        ratios = np.array(contact.frictions([self.shifts(k, n) for k in range(n)]))
         error = _undecided(ratios)
         while not positions and error > POSITION_TOLERANCE and 2 * n <= MAX_POSITIONS:
             if float(ratios.mean()) > largest:
                 break
-            between = [friction(self.shifts(k, 2 * n)) for k in range(1, 2 * n, 2)]
+            between = contact.frictions([self.shifts(k, 2 * n) for k in range(1, 2 * n, 2)])
             ratios = np.stack([ratios, between], axis=1).ravel()
             n, error = 2 * n, _undecided(ratios)
         return n, 0, ratios, error

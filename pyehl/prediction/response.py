@@ -82,8 +82,13 @@ def film_left(loss: Array) -> Array:
     left = np.asarray(1.0 - near + INLET_FILM * np.square(near))
     # only few points
     beyond = loss > QUADRATIC
-    left[beyond] *= np.exp(-_RATE * (loss[beyond] - QUADRATIC))
+    left[beyond] = film_beyond(loss[beyond])
     return left
+
+
+def film_beyond(loss: Array) -> Array:
+    """Give `film_left` for losses above QUADRATIC."""
+    return np.asarray(_LEFT * np.exp(-_RATE * (loss - QUADRATIC)))
 
 
 def loss_at(film: Array) -> Array:

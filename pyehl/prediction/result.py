@@ -137,7 +137,8 @@ class Prediction:
     below
         Where the film breaks down, and on which share of the contact.
     seconds
-        Wall time of the whole prediction, tracks and bands included.
+        Wall time of the prediction, tracks included. The bands are computed when they are first
+        asked for, for instance by `summary`, whose ``wall_seconds`` includes them.
     text
         The resolved case as namelist text; '' if only its settings are known.
     track_count

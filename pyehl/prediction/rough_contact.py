@@ -14,9 +14,10 @@ Units: lengths along the surface by a, films by a^2/R, pressures by p_h.
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +34,7 @@ from pyehl.prediction.moving_tile import (
     WaveTiles,
     station_weights,
 )
-from pyehl.prediction.response import FILM_ENDS, STATIONS, film_left
+from pyehl.prediction.response import FILM_ENDS, INLET_FILM, QUADRATIC, STATIONS, film_beyond
 from pyehl.theory.disc import EDGE_ANGLES
 from pyehl.theory.line_contact import AnyContact
 from pyehl.theory.lubricant import Lubricant
@@ -47,6 +48,24 @@ by 0.2 % at M = 200."""
 RINGS = np.array([0.0, 0.4, OUTER])
 """Inner radii of the rings in each of which the load is kept [semi-axes]: two rings more or fewer
 change mu_r/mu_s by less than 1e-5 unless a ring loses its load."""
+
+
+TOGETHER = 16
+"""Number of positions whose polynomials of the edge are summed at a time."""
+
+
+class _AtEdge(NamedTuple):
+    """Effect of the edge of the contact at a position."""
+
+    moved: Array  # outward displacement of the edge, as `moved` of the contact
+    increase: Single | None  # of the pressure at the points in the contact; None: no effect
+
+
+class _InLine(NamedTuple):
+    """The same for a line contact."""
+
+    moved: Array
+    increase: Array  # at all points (m, n)
 
 
 class RoughContact(ShearedContact):
@@ -69,7 +88,7 @@ class RoughContact(ShearedContact):
         tiles: Sequence[PixelTile | LineTile],
     ) -> None:
         super().__init__(operating, lubricant)
-        self.x, self.y, self.area, self.tiles = x, y, area, tiles
+        self.x, self.y, self.area = x, y, area
         self.pressure, self.film = smooth.at(self.x, self.y)
         self.across = self.y / operating.ellipse.ellipticity
         self.radius = np.hypot(self.x[:, np.newaxis], self.across[np.newaxis, :])
@@ -78,31 +97,63 @@ class RoughContact(ShearedContact):
         # only for points in the contact, in the order of `places`
         radius = self.radius[self.inside]
         self.inner, self.near = (np.flatnonzero(radius < r) for r in (INNER, NEAR))
-        self.rings = np.searchsorted(RINGS, radius, side="right") - 1
-        edge = max((wave.edge for wave in waves), key=lambda edge: edge.coefficients.shape)
-        self.contact, self.moved = smooth, np.zeros(edge.displacement.shape[0])
-        self.strip = edge.shape if isinstance(edge.shape, StripEdge) else None
+        self.rings = (np.searchsorted(RINGS, radius, side="right") - 1).astype(np.int32)
+        shape = waves[0].edge.shape
+        self.contact, self.strip = smooth, shape if isinstance(shape, StripEdge) else None
         self.outer, self.lowest = self._outer(smooth), float(smooth.film.min())
-        self.minimum = math.inf
         self.weights = station_weights(self.x).astype(np.float32)
         self.expansion = self._expansion(smooth)
-        # (n, points), so that sums over n read memory in order
-        i, j = np.nonzero(self.inside)
-        self.places = np.ravel_multi_index((i, j), self.film.shape).astype(np.int32)
+        places = np.flatnonzero(self.inside)
+        self.places = places.astype(np.int32)
+        self.smooth_inside = self.pressure[self.inside], self.film[self.inside]
+        # places of the points of `outer` among `places`
+        self.outer_inside = np.searchsorted(places, self.outer[-1]).astype(np.int32)
+        # first and last column, from 1, in each row (m, 2): all, and those of points in the contact
+        m, n = self.film.shape
+        self.whole = np.tile(np.array([1, n], dtype=np.int32), (m, 1))
+        last = n - np.argmax(self.inside[:, ::-1], axis=1)
+        spans = np.stack([np.argmax(self.inside, axis=1) + 1, last], axis=1)
+        spans[~self.inside.any(axis=1)] = 1, 0
+        self.spans = spans.astype(np.int32)
+        # polynomials of the edge (n, points), so that sums over n read memory in order; None before
+        # the first waves that need them
+        self.polynomials: Single | None = None
         if self.strip:
             self.along, self.edge_waves = self.strip.polynomials(self.x), self.strip.waves(self.y)
-        else:
-            self.polynomials = edge.polynomials(self.x[i], self.across[j]).astype(np.float32)
+        self.smooth = float(self.stress(self.pressure, self.film)[self.inside].sum())
+        self._take(waves, powers, tiles)
+
+    def _take(
+        self,
+        waves: Sequence[Component],
+        powers: Sequence[Array] | None,
+        tiles: Sequence[PixelTile | LineTile],
+    ) -> None:
+        """Take the waves, as in the constructor."""
+        self.tiles, self.minimum = tiles, math.inf
+        self.edge = max((wave.edge for wave in waves), key=lambda edge: edge.coefficients.shape)
+        self.moved = np.zeros(self.edge.displacement.shape[0])
         order = waves[0].transfer.second
         # First-order loss of film over the smooth film at a film breakdown
         self.ends = FILM_ENDS if order else 1.0
         # gamma and s^2 of the pressure of second order
         self.second = order and [
-            np.interp(self.x, STATIONS, value)[:, np.newaxis]
+            np.interp(self.x, STATIONS, value)
             for value in order.of(*(powers or [wave.spectrum.power for wave in waves]))
         ]
-        self.smooth = float(self.stress(self.pressure, self.film)[self.inside].sum())
         self.minimum_film = float(self.film[self.inside].min())
+
+    def with_waves(
+        self,
+        waves: Sequence[Component],
+        powers: Sequence[Array] | None,
+        tiles: Sequence[PixelTile | LineTile],
+    ) -> RoughContact:
+        """Return the contact with other waves at the same points."""
+        other = copy.copy(self)
+        ShearedContact.__init__(other, self.operating, self.lubricant)
+        other._take(waves, powers, tiles)
+        return other
 
     @classmethod
     def on_pixels(
@@ -130,8 +181,12 @@ class RoughContact(ShearedContact):
         points: float,
         powers: Sequence[Array] | None = None,
         tracks: Sequence[float] = (0.0, 0.0),
+        like: RoughContact | None = None,
     ) -> RoughContact:
-        """Make it under two surfaces, at `points` points per semi-axis; `tracks` of both [a]."""
+        """Make it under two surfaces, at `points` points per semi-axis; `tracks` of both [a].
+
+        `like`: a contact at the same points.
+        """
         half = int(REACH * points)
         x = np.arange(-half, half + 1) / points
         shape = waves[0].edge.shape
@@ -145,6 +200,8 @@ class RoughContact(ShearedContact):
             LineTile(wave, smooth.central_film, places, track, number)
             for number, (wave, track) in enumerate(zip(waves, tracks, strict=True))
         ]
+        if like is not None:
+            return like.with_waves(waves, powers, tiles)
         if operating.ellipse.is_line:
             area = operating.hertz_radius / (points * y.size)
         else:
@@ -153,24 +210,58 @@ class RoughContact(ShearedContact):
 
     def change(self, position: Position) -> Single:
         """Loss of film [a^2/R] and pressure increase [p_h] at a position (m, n, 2)."""
+        (edge,) = self._edges([position])
+        return self._change(position, edge, self.whole)
+
+    def _change(
+        self, position: Position, edge: _AtEdge | _InLine, spans: NDArray[np.int32]
+    ) -> Single:
+        """Give `change` in the columns `spans` of each row, and store the displacement."""
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
         for tile in self.tiles:
-            tile.add(self, position, total)
-        self.add_edge(total, *(tile.at_edge(position) for tile in self.tiles))
+            tile.add(self, position, spans, total)
+        self.moved[:] = edge.moved
+        if isinstance(edge, _InLine):
+            total[..., 1] += edge.increase
+        elif edge.increase is not None:
+            all_points = total.reshape(-1, 2).T
+            extension.surface_functions.at_places(edge.increase, self.places, all_points)
         if self.second:
             gain, variance = self.second
-            total[..., 1] += gain * (np.square(total[..., 1]) - variance)
+            extension.surface_functions.second_order(gain, variance, spans.T, total.T)
         return total
 
     def friction(self, position: Position) -> float:
-        """Friction over that of the smooth contact at a position; NaN as in `sheared`."""
-        change = self.change(position)
-        smooth = self.smooth_film()
-        if len(self.tiles) > 1:
-            # under one surface :mod:`pyehl.prediction.breakdown` counts pixels instead
-            ended = (change[..., 0] >= self.ends * smooth) & self.inside
-            self.ended += int(np.count_nonzero(ended))
-        return self.sheared(change, smooth)
+        """Friction over that of the smooth contact at a position; NaN as in `sheared`.
+
+        The extremes are updated.
+        """
+        return self.frictions([position])[0]
+
+    def frictions(self, positions: Sequence[Position]) -> list[float]:
+        """Give `friction` at some positions."""
+        return self._each(positions)
+
+    def ratios(self, positions: Sequence[Position]) -> list[float]:
+        """Friction at some positions as `friction`, without the extremes."""
+        return self._each(positions, extremes=False)
+
+    def observe(self, positions: Sequence[Position]) -> None:
+        """Update the extremes by some positions, without the friction there."""
+        self._each(positions, stress=False)
+
+    def _each(
+        self, positions: Sequence[Position], *, extremes: bool = True, stress: bool = True
+    ) -> list[float]:
+        """Give `friction` at some positions; without `stress` only update the extremes."""
+        result = []
+        for first in range(0, len(positions), TOGETHER):
+            part = positions[first : first + TOGETHER]
+            for position, edge in zip(part, self._edges(part), strict=True):
+                change = self._change(position, edge, self.spans)
+                smooth = self._film_inside()
+                result.append(self._friction(change, smooth, extremes=extremes, stress=stress))
+        return result
 
     def _expansion(self, contact: SmoothContact) -> Single:
         """Ratio of free waves to those on the centre line (m, n): a mass expands at lower P."""
@@ -186,13 +277,14 @@ class RoughContact(ShearedContact):
         beside: Single | None,
         places: tuple[NDArray[np.int32], Single],
         columns: NDArray[np.int32],
+        spans: NDArray[np.int32],
         shift: int,
         total: Single,
     ) -> None:
         """Add free waves, shifted by some rows, to loss of film and pressure increase (m, n, 2).
 
         `places` are the row before each point (m, 1 or n) and the weight of the next one; columns
-        (n,); `beside`: :meth:`WaveTiles.beside`.
+        (n,); `spans` (m, 2): first and last of them, from 1; `beside`: :meth:`WaveTiles.beside`.
         """
         if waves.free is None or beside is None:
             return
@@ -202,6 +294,7 @@ class RoughContact(ShearedContact):
             beside.T,
             rows.T,
             columns,
+            spans.T,
             between.T,
             self.weights.T,
             self.expansion.T,
@@ -209,30 +302,33 @@ class RoughContact(ShearedContact):
             total.T,
         )
 
-    def add_edge(self, total: Single, *edges: tuple[Array, Array]) -> None:
-        """Add the effect of the edge on the pressure, and store its displacement.
-
-        `edges`: results of :meth:`pyehl.prediction.moving_tile.Edge.at`.
-        """
-        # a surface without long waves has none
-        coefficients = np.zeros(max(result.size for result, _ in edges))
-        self.moved[:] = 0.0
-        for result, moved in edges:
-            self.moved += moved
-            if result.size:
-                coefficients += result
-        if not coefficients.any():
-            return
+    def _edges(self, positions: Sequence[Position]) -> Sequence[_AtEdge | _InLine]:
+        """Effect of the edge of the contact at some positions."""
+        moved, coefficients = [], []
+        for position in positions:
+            edges = [tile.at_edge(position) for tile in self.tiles]
+            moved.append(sum((part for _, part in edges), np.zeros(self.moved.size)))
+            # a surface without long waves has no coefficients
+            values = np.zeros(max(part.size for part, _ in edges))
+            for part, _ in edges:
+                if part.size:
+                    values += part
+            coefficients.append(values)
+        if not any(values.any() for values in coefficients):
+            return [_AtEdge(one, None) for one in moved]
         if self.strip:
-            products = coefficients.reshape(-1, self.along.shape[1])
-            total[..., 1] += self.along @ (products.T @ self.edge_waves)
-            return
+            products = [values.reshape(-1, self.along.shape[1]) for values in coefficients]
+            each = (self.along @ (part.T @ self.edge_waves) for part in products)
+            return [_InLine(one, more) for one, more in zip(moved, each, strict=True)]
+        if self.polynomials is None:
+            i, j = np.nonzero(self.inside)
+            values = self.edge.polynomials(self.x[i], self.across[j])
+            self.polynomials = values.astype(np.float32)
+        sums = np.empty((len(positions), self.points), dtype=np.float32)
         extension.surface_functions.polynomials(
-            self.polynomials.T,
-            coefficients.astype(np.float32),
-            self.places,
-            total.reshape(-1, 2).T,
+            self.polynomials.T, np.array(coefficients, dtype=np.float32).T, sums.T
         )
+        return [_AtEdge(one, more) for one, more in zip(moved, sums, strict=True)]
 
     def _outer(self, contact: SmoothContact) -> tuple[NDArray[Any], ...]:
         """Points whose film is displaced with the edge, as arguments for `smooth_film`.
@@ -290,44 +386,73 @@ class RoughContact(ShearedContact):
         """Minimum film over the positions, as reported [a^2/R]."""
         return self.minimum if self.minimum_film > 0.0 else self.minimum_film
 
+    def _film_inside(self) -> Array:
+        """Return `smooth_film` at `places`."""
+        film, (*points, _) = self.smooth_inside[1].copy(), self.outer
+        extension.surface_functions.film_moved(*points, self.moved, self.outer_inside, film)
+        return film
+
     def sheared(self, change: Single, smooth: Array) -> float:
         """Friction over that of the smooth contact with changes (m, n, 2) of film and pressure.
 
         `smooth`: its film at this position (m, n). NaN if the film is not positive, or a ring of
         the contact would need tension.
         """
-        # only at points in the contact
-        smooth = smooth.take(self.places)
-        loss, gain = change.reshape(-1, 2).take(self.places, axis=0).T
-        film = smooth * film_left(loss / smooth) if self.second else smooth - loss
-        pressure = self.pressure.take(self.places) + gain
-        self.count += 1
-        # over the mean pressure of the dry contact
-        imbalance = (4.0 / math.pi if self.strip else 1.5) * float(gain.sum()) / self.points
-        self.imbalance = max(self.imbalance, abs(imbalance))
-        sustained = float((self.ends * smooth - loss).min(initial=math.inf))
-        if sustained <= 0.0:
-            self.minimum_film = min(self.minimum_film, sustained)
-            return math.nan
-        self.minimum_film = min(self.minimum_film, float(film.min(initial=math.inf)))
-        tensile = np.flatnonzero(pressure <= 0.0)
-        self.cavitated += tensile.size
-        whole = film + missing(self.contact, smooth, self.lowest)
-        self.minimum = min(self.minimum, float(whole.min(initial=math.inf)))
-        self.accumulate(gain, pressure, whole, self.inner, self.near)
-        if tensile.size:
-            load = np.bincount(self.rings, pressure, len(RINGS))
-            tension = np.bincount(self.rings[tensile], pressure[tensile], len(RINGS))
-            if (load < 0.0).any():
-                self.lost = True
+        return self._friction(change, smooth.take(self.places))
+
+    def _friction(
+        self, change: Single, smooth: Array, *, extremes: bool = True, stress: bool = True
+    ) -> float:
+        """Give `sheared`, `smooth` at `places`; without `stress` only update the extremes."""
+        film, pressure, gain, ended, tensile = self.film_and_pressure(change, smooth)
+        if extremes:
+            self.count += 1
+            # over the mean pressure of the dry contact
+            imbalance = (4.0 / math.pi if self.strip else 1.5) * float(gain.sum()) / self.points
+            self.imbalance = max(self.imbalance, abs(imbalance))
+        if ended:
+            left = self.ends * smooth - change[..., 0].take(self.places)
+            if len(self.tiles) > 1:
+                # under one surface :mod:`pyehl.prediction.breakdown` counts pixels instead
+                self.ended += int(np.count_nonzero(left <= 0.0))
+            sustained = float(left.min(initial=math.inf))
+            if sustained <= 0.0:
+                self.minimum_film = min(self.minimum_film, sustained)
                 return math.nan
-            pressure[tensile] = 0.0
-            # compression in the rest of a ring carries its load
-            compression = load - tension
-            share = np.divide(load, compression, out=np.ones_like(load), where=compression > 0.0)
-            pressure *= share[self.rings]
+        if extremes:
+            self.minimum_film = min(self.minimum_film, float(film.min(initial=math.inf)))
+            self.cavitated += tensile
+            whole = film + missing(self.contact, smooth, self.lowest)
+            self.minimum = min(self.minimum, float(whole.min(initial=math.inf)))
+            self.accumulate(gain, pressure, whole, self.inner, self.near)
+        if tensile and extension.surface_functions.ring_loads(self.rings, pressure):
+            self.lost = True
+            return math.nan
+        if not stress:
+            return math.nan
         with np.errstate(over="ignore"):
             return float(self.stress(pressure, film).sum()) / self.smooth
+
+    def film_and_pressure(
+        self, change: Single, smooth: Array
+    ) -> tuple[Array, Array, Single, int, int]:
+        """Film, pressure and its increase at `places`, for changes (m, n, 2).
+
+        With the numbers of points where the film may break down, and where the pressure is not
+        positive.
+        """
+        film, pressure = np.empty(smooth.size), np.empty(smooth.size)
+        gain, counts = np.empty(smooth.size, np.float32), np.empty(3, np.int32)
+        limit = QUADRATIC if self.second else -1.0
+        changes = change.reshape(-1, 2)
+        given = changes.T, self.places, smooth, self.smooth_inside[0], limit, INLET_FILM, self.ends
+        extension.surface_functions.film_pressure(*given, film, pressure, gain, counts)
+        beyond, ended, tensile = (int(number) for number in counts)
+        if beyond:
+            loss = changes[:, 0].take(self.places) / smooth
+            far = np.flatnonzero(loss > QUADRATIC)
+            film[far] = smooth[far] * film_beyond(loss[far])
+        return film, pressure, gain, ended, tensile
 
 
 def missing(contact: SmoothContact, film: Array, minimum: float) -> Array | float:

@@ -6,9 +6,10 @@ Units: lengths along the surface by a, heights by a^2/R.
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any, cast
 
 import numpy as np
@@ -37,6 +38,7 @@ class Spectrum:
     qy: Array
     shape: tuple[int, int]  # (nx, ny)
     q: Array = field(init=False, repr=False)  # |q| (nx//2 + 1, ny) [1/a]
+    filled: int = field(init=False)  # number of rows of `values` before those that are zero
 
     @classmethod
     def of(cls, heights: Array, length_x: float, length_y: float) -> Spectrum:
@@ -52,10 +54,20 @@ class Spectrum:
         """Compute |q| once."""
         q = np.hypot(self.qx[:, np.newaxis], self.qy[np.newaxis, :])
         object.__setattr__(self, "q", q)
+        object.__setattr__(self, "filled", self.qx.size)
 
     def single(self) -> Spectrum:
         """Return the same in single precision."""
-        return replace(self, values=self.values.astype(np.complex64))
+        result = copy.copy(self)
+        object.__setattr__(result, "values", self.values.astype(np.complex64))
+        return result
+
+    def below(self, limit: float) -> Spectrum:
+        """Return the components with |q| below a limit [1/a]; the others are zero."""
+        result = copy.copy(self)
+        object.__setattr__(result, "values", np.where(self.q < limit, self.values, 0.0))
+        object.__setattr__(result, "filled", int(np.count_nonzero(self.qx < limit)))
+        return result
 
     @property
     def pixel(self) -> tuple[float, float]:
@@ -98,11 +110,13 @@ class Spectrum:
     ) -> NDArray[np.complexfloating[Any, Any]]:
         """Waves along the motion (n, nx//2 + 1) on each column or line of :meth:`tile`.
 
-        Scaled for an inverse transform to refinement nx heights.
+        Scaled for an inverse transform to refinement nx heights. On columns without those of
+        rows that are zero, which the transform adds.
         """
         nx, ny = self.shape
-        part = self.values * factor
-        if nx % 2 == 0:
+        rows = self.filled if lines is None else self.qx.size
+        part = self.values[:rows] * factor[:rows]
+        if nx % 2 == 0 and rows == self.qx.size:
             # the shortest wave of an even number of pixels has no phase
             part[-1] = self.values[-1] * np.real(factor[-1])
             part[-1] *= 0.5 if refinement > 1 else 1.0
@@ -169,9 +183,7 @@ def longer_waves(
         for n, pixel, axis in zip(spectrum.shape, spectrum.pixel, axes, strict=True)
     )
     index = spectrum.longest(nx, ny)
-    part = spectrum.kept(index, (nx, ny))
-    part.values[part.q >= limit] = 0.0
-    return part, index
+    return spectrum.kept(index, (nx, ny)).below(limit), index
 
 
 def working_grid(topography: Topography, operating: AnyContact, positions: int) -> Topography:

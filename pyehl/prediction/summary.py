@@ -277,7 +277,8 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
         "film_scale_m": o.film_scale,
         "bands": records(prediction.bands),
         "spectrum_beside": list(prediction.beside) or None,
-        "wall_seconds": prediction.seconds,
+        # after the bands, which are computed above if they were not before
+        "wall_seconds": prediction.seconds + prediction.outcome.bands_seconds,
     }
     if o.ellipse.is_line:
         values["shape"] = "line"

@@ -175,13 +175,22 @@ class Lubricant:
         above = self.temperature + ZERO_CELSIUS - ROELANDS_TEMPERATURE
         s0 = self.temperature_viscosity * above / factor
         with np.errstate(invalid="ignore", divide="ignore"):
-            power = np.exp(self.roelands_z * np.log(1.0 + p / self.roelands_p0))
-            power = power * np.exp(-s0 * np.log(1.0 + warmer / above))
-        return np.asarray(factor * (power - 1.0))
+            # in place: a prediction spends much of its time here
+            power = np.asarray(p / self.roelands_p0)
+            power += 1.0
+            np.log(power, out=power)
+            power *= self.roelands_z
+            np.exp(power, out=power)
+            if warmer.any():
+                power = np.asarray(power * np.exp(-s0 * np.log(1.0 + warmer / above)))
+        power -= 1.0
+        power *= factor
+        return power
 
     def viscosity_ratio(self, pressure: ArrayLike, rise: ArrayLike = 0.0) -> Array:
         """eta/eta0 [-] at a pressure [Pa] and a temperature increase [K], any shapes."""
-        return np.exp(self.log_viscosity_ratio(pressure, rise))
+        result = self.log_viscosity_ratio(pressure, rise)
+        return np.exp(result, out=result)[()]
 
     def density_ratio(self, pressure: ArrayLike, rise: ArrayLike = 0.0) -> Array:
         """rho/rho0 [-] at a pressure [Pa] and a temperature increase [K], any shapes.

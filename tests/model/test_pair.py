@@ -142,12 +142,16 @@ def test_positions():
     q = 2.0 * np.pi
     for ahead in (0.0, 0.2):
         line = RelativePositions((1.1, 0.9), (1.1, 0.9), (0.0, ahead))
-        mean = line.short_mean(lambda s: np.cos(q * s[0] / 1.1) * np.cos(q * s[1] / 0.9))
+        mean = line.short_mean(
+            lambda all_shifts: [np.cos(q * s / 1.1) * np.cos(q * t / 0.9) for s, t in all_shifts]
+        )
         assert mean == pytest.approx(0.5 * np.cos(q * ahead / 0.9), abs=1e-12)
     # over all positions: products of different tiles have none
     lattice = RelativePositions((1.0, 1.0), (1.01, 0.99), (0.0, 0.3))
     for i, j in ((1, 0), (0, 1), (1, 1), (1, -1), (2, 3), (3, -1)):
-        mean = lattice.short_mean(lambda s, i=i, j=j: np.cos(q * (i * s[0] + j * s[1])))
+        mean = lattice.short_mean(
+            lambda all_shifts, i=i, j=j: [np.cos(q * (i * s + j * t)) for s, t in all_shifts]
+        )
         assert mean == pytest.approx(0.0, abs=1e-12), (i, j)
     # the same positions for the other order of the two
     points = {lattice.moved(k, 48, 7) for k in range(48)}

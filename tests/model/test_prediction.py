@@ -18,7 +18,7 @@ from pyehl.prediction import model, response
 from pyehl.prediction.breakdown import ways_into_range
 from pyehl.prediction.friction import run
 from pyehl.prediction.model import KNOWN_RATIO, Model, ModelOptions
-from pyehl.prediction.moving_tile import WaveTiles
+from pyehl.prediction.moving_tile import WaveFactors, WaveTiles
 from pyehl.prediction.predict import predict
 from pyehl.prediction.response import Transfer, leaking_at_amplitude
 from pyehl.prediction.spectrum import Spectrum
@@ -82,7 +82,7 @@ def test_a_tile_of_one_wave_follows_the_transfer():
     spectrum = Spectrum.of(np.tile(np.cos(q * x)[:, np.newaxis], n), side, side)
     t = np.full(spectrum.values.shape, 0.4 * np.exp(0.6j))
     transfer = Transfer([t] * 3, [0.5 * t] * 3, [0.1 * t] * 8, bent=False)
-    waves = WaveTiles.of(spectrum, transfer, 0.0, 1.2)
+    waves = WaveTiles.of(spectrum, WaveFactors.of(spectrum, transfer, 0.0, 1.2))
     k = float(stiffness(q))
     film, pressure = np.moveaxis(waves.driven[1], -1, 0)
     assert film[:, 7] == pytest.approx(np.real(0.4 * np.exp(1j * (q * x + 0.6))), abs=1e-6)
