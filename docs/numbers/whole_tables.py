@@ -57,7 +57,7 @@ def campaigns() -> Values:
 def times() -> Values:
     """Seconds of steps, runs, smooth contacts and studies."""
     make = script("speed/make.py")
-    names = ("steps", "whole", "smooth", "ratios", "sweep", "skips")
+    names = ("steps", "whole", "smooth", "predictions", "ratios", "sweep", "skips")
     return {name: "\n".join(getattr(make, name)()) for name in names}
 
 

@@ -6,6 +6,7 @@ python benchmarks/step.py --points 1025 --front 0 --steps 16 -o step_1025.json
 python benchmarks/smooth.py -o smooth.json
 python benchmarks/skips.py -o skips.json
 python benchmarks/sweep.py -o sweep.json
+python benchmarks/prediction.py -o prediction.json
 python benchmarks/step.py --points 257 --threads 1 --steps 384 \
     --cases wave-law,fractal-law,two-fractals -o laws.json
 python benchmarks/smooth.py --points 257,513 --threads 1 --engines mlmi --cases circle,law,ellipse \
@@ -35,6 +36,11 @@ PROBLEMS = {
     "two-fractals": "step of two rough surfaces",
     "law": "smooth contact, Eyring",
     "ellipse": "smooth ellipse, κ = 2",
+}
+PREDICTIONS = {
+    "fractal": "fractal surface of Table 1",
+    "fractal-law": "fractal surface of Table 1, Eyring",
+    "two-fractals": "two fractal surfaces",
 }
 
 # Source files of each table, its columns and their formats
@@ -69,6 +75,13 @@ TABLES: dict[str, tuple[tuple[str, ...], dict[str, str]]] = {
         {
             **{"problem": "s", "skipped": "s", "saved": ".2f", "quantity": "s"},
             **{"difference": ".0e", "allowed": ".0e"},
+        },
+    ),
+    "predictions": (
+        ("prediction",),
+        {
+            **{"problem": "s", "unit_seconds": ".4f", "seconds": ".3f"},
+            **{"units": ".1f", "smooth": ".1f", "bands": ".1f"},
         },
     ),
     "sweep": (
@@ -213,6 +226,15 @@ def skips() -> list[str]:
     return lines("| problem | omitted | time saved | quantity | change | allowed |", result)
 
 
+def predictions() -> list[str]:
+    """Make the table of predictions."""
+    result = [
+        [PREDICTIONS[row["problem"]], row["units"], row["smooth"], row["bands"]]
+        for row in table("predictions")
+    ]
+    return lines("| prediction | units | smooth contact | bands of wavelengths |", result)
+
+
 def sweep() -> list[str]:
     """Make the table of studies, in units of a smooth contact on 257 x 257 nodes."""
     rows = table("sweep")
@@ -242,7 +264,7 @@ def main() -> None:
     if sys.argv[1:2] == ["read"] and len(sys.argv) == 3:
         read_measurements(Path(sys.argv[2]))
     elif sys.argv[1:] == ["show"]:
-        every = steps, whole, smooth, ratios, sweep, skips
+        every = steps, whole, smooth, predictions, ratios, sweep, skips
         print("\n\n".join("\n".join(made()) for made in every))
     else:
         sys.exit(__doc__)
