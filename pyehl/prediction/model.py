@@ -17,7 +17,7 @@ delta p = E'|q|/4 (1 - T) rr(q), eq. 11 :func:`pyehl.theory.transport.wave_press
                                         :meth:`response.Transfer.gain` (finite contact)
 sum over all waves, eq. 12              :class:`moving_tile.WaveTiles`, of one surface
                                         :class:`moving_tile.PixelTile`, of two ``LineTile``
-edge of the contact                     :meth:`moving_tile.Edge.of`
+edge of the contact                     :meth:`moving_tile.Edge.of_all`
 second order: gamma (P^2 - s^2), f(t/H) :meth:`response.SecondOrder.of`,
                                         :func:`response.film_left`
 tau(p_s + delta p, h_s - rr_d), eq. 13  :meth:`pyehl.contact.sheared.ShearedContact.stress`
@@ -322,11 +322,10 @@ class Model:
         """
         tiles = self.grids() if tiles is None else tiles
         spectra = [self.spectrum(tiles[k]) for k in self.order]
-        shape = self._shape(spectra)
-        return [
-            Component(s, t, Edge.of(s, t, one.velocity_ratio, shape), one.velocity_ratio)
-            for s, t, one in zip(spectra, self.transfers(spectra), self.in_order, strict=True)
-        ]
+        ratios = [one.velocity_ratio for one in self.in_order]
+        waves = list(zip(spectra, self.transfers(spectra), ratios, strict=True))
+        edges = Edge.of_all(waves, self._shape(spectra))
+        return [Component(s, t, edge, u) for (s, t, u), edge in zip(waves, edges, strict=True)]
 
     def _shape(self, spectra: Sequence[Spectrum]) -> Ellipse | StripEdge:
         """Shape of the contact; for a line with the wavenumbers of long waves along Y."""

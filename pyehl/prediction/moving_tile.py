@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import copy
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -54,6 +55,22 @@ def long_waves(spectrum: Spectrum, largest: float) -> tuple[Indices, Indices]:
     return i, j
 
 
+def _largest(shape: Ellipse | StripEdge) -> float:
+    """Largest wavenumber on which the edge has an effect [1/a]."""
+    if isinstance(shape, StripEdge):
+        return shape.largest
+    return MAX_WAVENUMBER if shape.radius_ratio == 1.0 else ellipse_edge(shape).largest
+
+
+def _effect(shape: Ellipse | StripEdge, qx: Array, qy: Array) -> tuple[Complex, Complex]:
+    """Coefficients and displacement of an :class:`Edge` for waves of unit amplitude."""
+    if isinstance(shape, StripEdge):
+        return shape.correction(qx, qy), shape.displacement(qx, qy)
+    if shape.radius_ratio == 1.0:
+        return disc_correction(qx, qy), edge_of_disc(qx, qy)
+    return ellipse_edge(shape).both(qx, qy)
+
+
 class Edge:
     """Effect of the edge of the contact on the pressure of the long waves of a tile.
 
@@ -76,48 +93,67 @@ class Edge:
         self.shape = shape
 
     @classmethod
-    def of(
-        cls,
-        spectrum: Spectrum,
-        transfer: Transfer,
-        velocity_ratio: float,
-        shape: Ellipse | StripEdge,
-    ) -> Edge:
-        """Compute the effect for a moving tile, from its deformed components."""
-        flattened = 1.0 - transfer.at_centre(spectrum, velocity_ratio)
-        # change on the lines off the centre line of an ellipse (lines, ...)
-        beside = transfer.beside(spectrum.qx, velocity_ratio)
-        if isinstance(shape, StripEdge):
-            i, j = long_waves(spectrum, shape.largest)
-            amplitude = spectrum.amplitudes(i, j, flattened[i, j])
-            qx, qy = spectrum.qx[i], spectrum.qy[j]
-            result, displacement = (
-                shape.correction(qx, qy) * amplitude,
-                shape.displacement(qx, qy) * amplitude,
+    def of_all(
+        cls, waves: Sequence[tuple[Spectrum, Transfer, float]], shape: Ellipse | StripEdge
+    ) -> list[Edge]:
+        """Compute the effect for moving tiles, from their deformed components.
+
+        `waves`: of each tile its spectrum, transfer and velocity ratio.
+        """
+        largest = _largest(shape)
+        tiles = [(*one, *long_waves(one[0], largest)) for one in waves]
+        groups: dict[tuple[bytes, bytes], list[int]] = {}
+        for number, (spectrum, _, _, i, j) in enumerate(tiles):
+            alike = spectrum.qx[i].tobytes(), spectrum.qy[j].tobytes()
+            groups.setdefault(alike, []).append(number)
+        result = {
+            number: edge
+            for group in groups.values()
+            for number, edge in zip(
+                group, cls._alike([tiles[number] for number in group], shape), strict=True
             )
-            return cls(qx, qy, result, displacement, shape)
-        ellipse = None if shape.radius_ratio == 1.0 else ellipse_edge(shape)
-        i, j = long_waves(spectrum, ellipse.largest if ellipse else MAX_WAVENUMBER)
+        }
+        return [result[number] for number in range(len(tiles))]
+
+    @classmethod
+    def _alike(
+        cls,
+        tiles: Sequence[tuple[Spectrum, Transfer, float, Indices, Indices]],
+        shape: Ellipse | StripEdge,
+    ) -> list[Edge]:
+        """Give the edges of tiles whose long waves have the same wavenumbers.
+
+        `tiles`: as `waves` of `of_all`, with the rows and columns of the long waves.
+        """
+        spectrum, _, _, i, j = tiles[0]
         qx, qy = spectrum.qx[i], spectrum.qy[j]
-        amplitude = spectrum.amplitudes(i, j, flattened[i, j])
-        if not i.size:
+        if not (i.size or isinstance(shape, StripEdge)):
             nothing = np.zeros((0, 0), complex), np.zeros((EDGE_ANGLES.size, 0), complex)
-            return cls(qx, qy, *nothing, shape)
-        result = ellipse.correction(qx, qy) if ellipse else disc_correction(qx, qy)
-        displacement = ellipse.displacement(qx, qy) if ellipse else edge_of_disc(qx, qy)
-        result, displacement = result * amplitude, displacement * amplitude
-        if ellipse and beside is not None:
+            return [cls(qx, qy, *nothing, shape) for _ in tiles]
+        result, parts = [], []
+        correction, displacement = _effect(shape, qx, qy)
+        for spectrum, transfer, velocity_ratio, i, j in tiles:
+            flattened = 1.0 - transfer.at_centre(spectrum, velocity_ratio)
+            amplitude = spectrum.amplitudes(i, j, flattened[i, j])
+            effect = correction * amplitude, displacement * amplitude
+            result.append(cls(qx, qy, *effect, shape))
+            # change on the lines off the centre line of an ellipse (lines, ...)
+            beside = transfer.beside(spectrum.qx, velocity_ratio)
+            if beside is not None:
+                parts.append(-spectrum.amplitudes(i, j) * beside[:, i, j])
+        if parts and isinstance(shape, Ellipse):
             # a wave whose amplitude changes across the motion is a sum of waves
-            parts = -spectrum.amplitudes(i, j) * beside[:, i, j]
-            for k, part in zip(*harmonics(parts), strict=True):
+            wavenumbers = harmonics(parts[0])[0]
+            for k, *of_each in zip(wavenumbers, *(harmonics(one)[1] for one in parts), strict=True):
                 there = qy + k / shape.ellipticity
                 q = np.hypot(qx, there)
-                affected = (q > 1e-9) & (q < ellipse.largest)
+                affected = (q > 1e-9) & (q < _largest(shape))
                 if affected.any():
-                    wave = qx[affected], there[affected]
-                    result[:, affected] += ellipse.correction(*wave) * part[affected]
-                    displacement[:, affected] += ellipse.displacement(*wave) * part[affected]
-        return cls(qx, qy, result, displacement, shape)
+                    correction, displacement = _effect(shape, qx[affected], there[affected])
+                    for edge, part in zip(result, of_each, strict=True):
+                        edge.coefficients[:, affected] += correction * part[affected]
+                        edge.displacement[:, affected] += displacement * part[affected]
+        return result
 
     def below(self, limit: float) -> Edge:
         """Return the part of the waves with |q| below a limit [1/a]."""

@@ -99,10 +99,17 @@ def _legendre(last: int, z: Array) -> Array:
 
 def spherical_bessel(count: int, q: Array) -> Array:
     """Spherical Bessel functions of the orders below `count`, (count, m) (DLMF 10.54.2)."""
-    place, weight = legendre.leggauss(2 * count)
-    waves = np.exp(1j * np.outer(q, place)) * (0.5 * weight)
+    place, weight, polynomials = _gauss(count)
+    waves = np.exp(1j * np.outer(q, place)) * weight
     turned = (-1j) ** np.arange(count)
-    return np.asarray((waves @ legendre.legvander(place, count - 1) * turned).real.T)
+    return np.asarray((waves @ polynomials * turned).real.T)
+
+
+@lru_cache(maxsize=4)
+def _gauss(count: int) -> tuple[Array, Array, Array]:
+    """Nodes, half of the weights and Legendre polynomials there of the orders below `count`."""
+    place, weight = legendre.leggauss(2 * count)
+    return place, 0.5 * weight, legendre.legvander(place, count - 1)
 
 
 def _weight(n: int, m: int, at_edge: float) -> float:

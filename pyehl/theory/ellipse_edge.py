@@ -76,10 +76,14 @@ class EllipseEdge:
 
         Coefficients (n, m) of `functions` [p_h per a^2/R_x].
         """
+        return self._correction(qx, qy, self._inside.of(qx, qy))
+
+    def _correction(self, qx: Array, qy: Array, series: Complex) -> Complex:
+        """Give `correction` from the series inside the ellipse."""
         kappa = self.shape.ellipticity
         local = 0.25 * math.pi / self.shape.kernel_ratio * np.hypot(qx, qy)
         phase = np.outer(self.x, qx) + np.outer(kappa * self.y, qy)
-        return np.asarray(self._inside.of(qx, qy) - self._inverse @ (local * np.exp(1j * phase)))
+        return np.asarray(series - self._inverse @ (local * np.exp(1j * phase)))
 
     def displacement(self, qx: Array, qy: Array) -> Complex:
         """Outward displacement of the edge by waves (m,), :func:`pyehl.theory.disc.edge_of_disc`.
@@ -87,6 +91,12 @@ class EllipseEdge:
         As a fraction of the distance from the centre, at EDGE_ANGLES of (x/a, y/b): (n, m).
         """
         return NEXT_TO_EDGE * self._at_edge.of(qx, qy)
+
+    def both(self, qx: Array, qy: Array) -> tuple[Complex, Complex]:
+        """Give `correction` and `displacement`, which share the expansion of the waves."""
+        waves = self._inside.expansion(qx, qy)
+        correction = self._correction(qx, qy, self._inside.sum(waves))
+        return correction, NEXT_TO_EDGE * self._at_edge.sum(waves)
 
 
 @lru_cache(maxsize=4)
@@ -128,12 +138,21 @@ class Series:
 
     def of(self, qx: Array, qy: Array) -> Complex:
         """Return it for waves exp(i q r) [a^2/R_x], wavevectors (m,) [1/a]: (k, m) [p_h]."""
+        return self.sum(self.expansion(qx, qy))
+
+    def expansion(self, qx: Array, qy: Array) -> tuple[Array, dict[np.ufunc, Array]]:
+        """Bessel functions and circular functions of waves (m,): (l, m) each."""
         kappa = self.shape.ellipticity
         q, phi = np.hypot(qx, kappa * qy), np.arctan2(kappa * qy, qx)
         last = min(self.last, math.ceil(float(q.max())) + 12)
         bessel = spherical_bessel(last + 1, q)
-        even, odd = (np.zeros((self._terms[0][3].shape[0], q.size)) for _ in range(2))
-        waves = {wave: wave(np.outer(np.arange(last + 1), phi)) for wave in (np.cos, np.sin)}
+        return bessel, {wave: wave(np.outer(np.arange(last + 1), phi)) for wave in (np.cos, np.sin)}
+
+    def sum(self, expansion: tuple[Array, dict[np.ufunc, Array]]) -> Complex:
+        """Give the same for an `expansion`."""
+        bessel, waves = expansion
+        last = bessel.shape[0] - 1
+        even, odd = (np.zeros((self._terms[0][3].shape[0], bessel.shape[1])) for _ in range(2))
         for n, m, wave, there in self._terms:
             if n <= last:
                 factor = (-1) ** (n // 2) * (2 * n + 1) * bessel[n]
