@@ -109,7 +109,8 @@ def spherical_bessel(count: int, q: Array) -> Array:
 def _gauss(count: int) -> tuple[Array, Array, Array]:
     """Nodes, half of the weights and Legendre polynomials there of the orders below `count`."""
     place, weight = legendre.leggauss(2 * count)
-    return place, 0.5 * weight, legendre.legvander(place, count - 1)
+    polynomials = np.asarray(legendre.legvander(place, count - 1), dtype=float)
+    return place, 0.5 * weight, polynomials
 
 
 def _weight(n: int, m: int, at_edge: float) -> float:
