@@ -211,7 +211,8 @@ def real_numbers(values: Any, what: str) -> Any:  # noqa: ANN401
             f"{what}: heights must be real numbers, not {result} ({array.dtype})\n"
             "expected: a matrix of numbers [m], missing points as nan or masked"
         )
-    if np.ma.isMA(array):
+    # for arrays of NumPy's own type numpy.ma, which takes long to load, is not needed
+    if type(array) is not np.ndarray and np.ma.isMA(array):
         return np.ma.filled(array.astype(float), np.nan)
     return array
 

@@ -113,6 +113,7 @@ def _gauss(count: int) -> tuple[Array, Array, Array]:
     return place, 0.5 * weight, polynomials
 
 
+@lru_cache(maxsize=1024)
 def _weight(n: int, m: int, at_edge: float) -> float:
     """Pressure per deflection of Y_nm times its coefficient in a plane wave; `at_edge` P_nm(0)."""
     inverse = math.lgamma((n + m + 2) / 2) + math.lgamma((n - m + 2) / 2)
