@@ -232,7 +232,9 @@ def predictions() -> list[str]:
         [PREDICTIONS[row["problem"]], row["units"], row["smooth"], row["bands"]]
         for row in table("predictions")
     ]
-    return lines("| prediction | units | of these smooth contact | of these bands of wavelengths |", result)
+    return lines(
+        "| prediction | units | of these smooth contact | of these bands of wavelengths |", result
+    )
 
 
 def sweep() -> list[str]:
