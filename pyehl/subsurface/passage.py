@@ -19,7 +19,8 @@ from tqdm import tqdm
 from pyehl.prediction.summary import INCREASE_ERROR
 from pyehl.subsurface.cycle import Cycle, Fatigue, History, hydrostatic, incomplete, shear_and_mises
 from pyehl.subsurface.half_space import HalfSpace, Layer
-from pyehl.subsurface.loads import Load, Loads, steep_edge
+from pyehl.subsurface.loads import Load, Loads
+from pyehl.subsurface.traction import steep_edge
 from pyehl.types import Array
 
 if TYPE_CHECKING:

@@ -21,8 +21,9 @@ from pyehl.results import load
 from pyehl.schema import VERSION
 from pyehl.subsurface.cycle import Fatigue, a_iso, incomplete, kappa_of, over_depth
 from pyehl.subsurface.half_space import COMPONENTS
-from pyehl.subsurface.loads import Loads, check_friction, loads_of
+from pyehl.subsurface.loads import Loads, loads_of, predicted_loads
 from pyehl.subsurface.passage import Peak, Profile, largest, near_surface, profile
+from pyehl.subsurface.traction import check_friction
 
 if TYPE_CHECKING:
     from pyehl.prediction.result import Prediction
@@ -294,8 +295,6 @@ def _loads(
             "load, or a result folder"
         )
     if data.attrs.get("kind") == "prediction":
-        from pyehl.subsurface.loads import predicted_loads  # noqa: PLC0415 (solves a contact)
-
         return predicted_loads(data, body=body, friction=friction), data
     return loads_of(data, body=body, friction=friction), data
 
