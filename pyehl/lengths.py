@@ -4,19 +4,19 @@
 UNITS = {"nm": 1e9, "um": 1e6, "mm": 1e3}
 
 
-def unit_of(largest: float, *, most: str = "mm") -> str:
+def unit_of(largest: float, *, max_unit: str = "mm") -> str:
     """Name of the unit for lengths up to `largest` [m]: nm below 1 um, um below 0.1 mm, else mm.
 
-    `most`: the largest unit, such as 'um' for wavelengths.
+    `max_unit`: the largest unit, such as 'um' for wavelengths.
     """
     if largest < 1e-6:
         return "nm"
-    return "um" if most == "um" or largest < 1e-4 else "mm"
+    return "um" if max_unit == "um" or largest < 1e-4 else "mm"
 
 
-def length(value: float, digits: int = 3, *, most: str = "mm") -> str:
+def length(value: float, digits: int = 3, *, max_unit: str = "mm") -> str:
     """Format a length [m] with its unit."""
-    unit = unit_of(abs(value), most=most)
+    unit = unit_of(abs(value), max_unit=max_unit)
     return f"{value * UNITS[unit]:.{digits}g} {unit}"
 
 
@@ -28,7 +28,7 @@ def size(x: float, y: float, digits: int = 5) -> str:
 
 def waves(longest: float, shortest: float) -> str:
     """Format a range of wavelengths [m]: 'from 829 to 414 um'."""
-    units = [unit_of(side, most="um") for side in (longest, shortest)]
+    units = [unit_of(side, max_unit="um") for side in (longest, shortest)]
     parts = [_short(s * UNITS[u]) for s, u in zip((longest, shortest), units, strict=True)]
     first = "" if units[0] == units[1] else f" {units[0]}"
     return f"from {parts[0]}{first} to {parts[1]} {units[1]}"

@@ -24,6 +24,7 @@ contains
       call lock(planner, status)
    end subroutine lock_planner
 
+   !> Release the planner for other threads
    subroutine unlock_planner(status)
       type(status_t), intent(inout) :: status
       call unlock(planner, status)

@@ -84,12 +84,12 @@ module ehl_files
          integer(c_size_t), value, intent(in) :: offset
       end function posix_lseek
 
-      integer(c_size_t) function posix_read(descriptor, bytes, most) bind(c, name="read")
+      integer(c_size_t) function posix_read(descriptor, bytes, count) bind(c, name="read")
          import :: c_char, c_int, c_size_t
          implicit none (type, external)
          integer(c_int), value, intent(in) :: descriptor
          character(kind=c_char), intent(out) :: bytes(*)
-         integer(c_size_t), value, intent(in) :: most
+         integer(c_size_t), value, intent(in) :: count
       end function posix_read
 
       integer(c_int) function posix_getpid() bind(c, name="getpid")

@@ -63,7 +63,7 @@ contains
       character(len=*), intent(in) :: form
       character(len=longest_number) :: text
 
-      real(dp) :: shown, most
+      real(dp) :: shown, allowed
       integer :: stat
 
       write (text, "("//form//")") x
@@ -71,8 +71,8 @@ contains
       text = adjustl(text)
       read (text, *, iostat=stat) shown
       ! a descriptor with three or more decimals must show three significant digits, others two
-      most = merge(0.005_dp, 0.05_dp, form(1:1) == "f" .and. scan(form, "3456789", back=.true.) == len(form))
-      if (stat == 0 .and. abs(shown - x) > most*abs(x)) then
+      allowed = merge(0.005_dp, 0.05_dp, form(1:1) == "f" .and. scan(form, "3456789", back=.true.) == len(form))
+      if (stat == 0 .and. abs(shown - x) > allowed*abs(x)) then
          if (abs(x) < 1.0e-3_dp) then
             write (text, "(es10.2)") x
             text = adjustl(text)

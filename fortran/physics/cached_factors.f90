@@ -8,7 +8,7 @@ module ehl_cached_factors
    use, intrinsic :: iso_fortran_env, only: int64, real32
    use ehl_factor_rows, only: factor_rows_t, find_factors, flows_newtonian
    use ehl_kinds, only: dp
-   use ehl_thinning, only: eyring, most, thinning_t
+   use ehl_thinning, only: eyring, max_nodes, thinning_t
    implicit none (type, external)
    private
    public :: cached_factors_t
@@ -37,7 +37,7 @@ module ehl_cached_factors
       real(dp), private :: reach = 0.0_dp
       !> Whether the level is solved for a correction of a finer one, which allows larger changes
       logical :: correcting = .false.
-      !> Number of nodes in a segment of a row, at most `most`
+      !> Number of nodes in a segment of a row, at most `max_nodes`
       integer :: width = 0
       !> Shape (node of the segment, field, segment, row)
       real(dp), allocatable, private :: values(:, :, :, :)
@@ -62,7 +62,7 @@ contains
       integer, intent(out) :: stat
       integer :: blocks
 
-      blocks = (nx - 1)/most + 1
+      blocks = (nx - 1)/max_nodes + 1
       self%width = (nx - 1)/blocks + 1
       call self%extrapolate(self%follows)
       allocate (self%values(self%width, fields, blocks, ny), source=none, stat=stat)
@@ -96,7 +96,7 @@ contains
       !> Whether the whole segment flows as a Newtonian lubricant; `rows` is not changed in this case
       logical, intent(out) :: newtonian
       type(factor_rows_t) :: found
-      real(dp) :: beyond(most), ss(most, 2), reach, relative, bound
+      real(dp) :: beyond(max_nodes), ss(max_nodes, 2), reach, relative, bound
       integer :: i, n, outside, from, to
 
       n = size(b)

@@ -7,7 +7,7 @@
 module ehl_factor_rows
    use ehl_flow_factors, only: exact_factors, factors_t, half, min_gradient, upper, weight
    use ehl_kinds, only: dp
-   use ehl_thinning, only: eyring, most, slopes, thinning_t
+   use ehl_thinning, only: eyring, max_nodes, slopes, thinning_t
    implicit none (type, external)
    private
    public :: factor_rows_t, find_factors, flows_newtonian, second_order
@@ -22,17 +22,17 @@ module ehl_factor_rows
 
    !> factors_t (flow_factors.f90) by node
    type :: factor_rows_t
-      real(dp), dimension(most, 2) :: phi, by_sliding, by_gradient, tangent, stress_by_gradient
-      real(dp), dimension(most) :: stress, stress_by_sliding
+      real(dp), dimension(max_nodes, 2) :: phi, by_sliding, by_gradient, tangent, stress_by_gradient
+      real(dp), dimension(max_nodes) :: stress, stress_by_sliding
       !> Relative error of second-order factors, and an estimate of the mean stress through the film
-      real(dp) :: error(most), near(most, 2)
+      real(dp) :: error(max_nodes), near(max_nodes, 2)
    end type factor_rows_t
 
    !> Integrals through the film for a mean stress: J0, J2, K, A, C and D as xx, xy, yy, and the residual of B
    type :: film_t
-      real(dp), dimension(most) :: j0, j2, k
-      real(dp), dimension(most, 3) :: a, c, d
-      real(dp) :: off(most, 2)
+      real(dp), dimension(max_nodes) :: j0, j2, k
+      real(dp), dimension(max_nodes, 3) :: a, c, d
+      real(dp) :: off(max_nodes, 2)
    end type film_t
 
 contains
@@ -43,7 +43,7 @@ contains
       !> B >= 0, and S along X and along Y of as many nodes, or more, shape (nodes, 2)
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
       type(factor_rows_t), intent(inout) :: rows
-      integer :: list(most), count, i
+      integer :: list(max_nodes), count, i
 
       if (flows_newtonian(law, b, s)) then
          rows%phi = 1.0_dp
@@ -83,7 +83,7 @@ contains
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
       type(factor_rows_t), intent(inout) :: rows
       !> Stress t in sliding alone; F and its derivatives with respect to tau^2 there
-      real(dp) :: t(most), f(most, 0:slopes)
+      real(dp) :: t(max_nodes), f(max_nodes, 0:slopes)
       !> t^2, S^2; 3 f1 + 2 f2 t^2; tau_mx/t - 1, and phi minus its value by sliding alone, each over the squares of S
       real(dp) :: q, sx, sy, g, less_x, less_y, xx, xy, yx, yy, phi_x, phi_y, error, is_eyring
       integer :: i
@@ -132,8 +132,8 @@ contains
       type(film_t) :: film
       type(factor_rows_t) :: new
       !> B, S and mean stress of the nodes that have not converged
-      real(dp) :: bb(most), ss(most, 2), mean(most, 2)
-      integer :: nodes(most), pass, n, i, k
+      real(dp) :: bb(max_nodes), ss(max_nodes, 2), mean(max_nodes, 2)
+      integer :: nodes(max_nodes), pass, n, i, k
 
       n = size(list)
       nodes(:n) = list
@@ -198,7 +198,7 @@ contains
       type(thinning_t), intent(in) :: law
       real(dp), contiguous, intent(in) :: b(:), s(:, :), mean(:, :)
       type(film_t), intent(inout) :: film
-      real(dp), dimension(most) :: up, down, flat, f_up, f_down, slope_up, slope_down
+      real(dp), dimension(max_nodes) :: up, down, flat, f_up, f_down, slope_up, slope_down
       real(dp) :: w, z, along, both, tx, ty, difference, wu, wd, middle
       integer :: i, k, n
 

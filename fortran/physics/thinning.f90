@@ -14,7 +14,7 @@ module ehl_thinning
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: thinning_t, eyring, carreau, slopes, most
+   public :: thinning_t, eyring, carreau, slopes, max_nodes
 
    integer, parameter :: eyring = 1, carreau = 2
    !> Below this stress the Eyring law is evaluated as a series
@@ -22,8 +22,8 @@ module ehl_thinning
    !> Maximum number of steps of an iteration; error below which one last step follows, which reduces the error to its cube
    integer, parameter :: max_steps = 50
    real(dp), parameter :: enough = 1.0e-4_dp
-   !> Maximum number of films evaluated at once
-   integer, parameter :: most = 64
+   !> Maximum number of nodes evaluated at once
+   integer, parameter :: max_nodes = 64
    !> Number of derivatives of F with respect to the square of the stress
    integer, parameter :: slopes = 3
 
@@ -42,12 +42,12 @@ module ehl_thinning
 
 contains
 
-   !> F for up to `most` squared stresses, and (dF/d|tau|)/|tau|
+   !> F for up to `max_nodes` squared stresses, and (dF/d|tau|)/|tau|
    pure subroutine thinness(self, square, f, slope)
       class(thinning_t), intent(in) :: self
       real(dp), contiguous, intent(in) :: square(:)
       real(dp), contiguous, intent(out) :: f(:), slope(:)
-      real(dp) :: near(most), t, e, m, x, far, far_slope
+      real(dp) :: near(max_nodes), t, e, m, x, far, far_slope
       integer :: i
 
       if (self%law == carreau) then
@@ -78,7 +78,7 @@ contains
    !> Stress in sliding without a pressure gradient, and F with its derivatives d^k F/d(tau^2)^k there
    pure subroutine slide(self, b, t, f)
       class(thinning_t), intent(in) :: self
-      !> B >= 0 of at most `most` films
+      !> B >= 0 of at most `max_nodes` nodes
       real(dp), contiguous, intent(in) :: b(:)
       !> Shapes (films), (films or more, 0:slopes)
       real(dp), contiguous, intent(out) :: t(:), f(:, 0:)
@@ -97,7 +97,7 @@ contains
       real(dp), parameter :: at_zero(slopes) = [1.0_dp/3.0_dp, 1.0_dp/15.0_dp, 1.0_dp/105.0_dp]
       !> Above `large`, cosh(tau) = sqrt(1 + B^2) equals B; below `small` the logarithm loses digits
       real(dp), parameter :: large = 1.0e9_dp, small = 1.0e-2_dp
-      real(dp), dimension(most) :: cosh_t, short, near
+      real(dp), dimension(max_nodes) :: cosh_t, short, near
       real(dp) :: x, y, far(0:slopes)
       integer :: i, n
 
@@ -136,7 +136,7 @@ contains
       real(dp), parameter :: none = 1.0e-100_dp, large = 1.0e100_dp
       !> Number of steps that suffices for all but extreme exponents
       integer, parameter :: usual_steps = 3
-      real(dp), dimension(most) :: wanted, u, error
+      real(dp), dimension(max_nodes) :: wanted, u, error
       real(dp) :: m, x, slope
       integer :: i, k
 

@@ -93,6 +93,7 @@ contains
 
    contains
 
+      !> `wall_strength` of body k
       pure real(dp) function wall(k)
          integer, intent(in) :: k
          real(dp) :: speeds(2)

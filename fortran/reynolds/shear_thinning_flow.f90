@@ -14,7 +14,7 @@ module ehl_shear_thinning_flow
    use ehl_factor_rows, only: factor_rows_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
-   use ehl_thinning, only: most, thinning_t
+   use ehl_thinning, only: max_nodes, thinning_t
    implicit none (type, external)
    private
    public :: shear_thinning_flow_t, new_shear_thinning_flow
@@ -92,8 +92,8 @@ contains
       real(dp), contiguous, intent(in) :: h(:), rho(:), drho_dp(:)
       integer, intent(in) :: j, last
       type(factor_rows_t) :: factors
-      real(dp), dimension(most) :: b, newtonian, by_density
-      real(dp) :: log_eta(size(p, 1)), slope(size(p, 1)), s(most, 2)
+      real(dp), dimension(max_nodes) :: b, newtonian, by_density
+      real(dp) :: log_eta(size(p, 1)), slope(size(p, 1)), s(max_nodes, 2)
       integer :: segment, first, n, i, k
       logical :: is_newtonian
 
@@ -181,7 +181,7 @@ contains
       integer, intent(in) :: j
       real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
       real(dp), dimension(size(p, 1)) :: log_eta, slope
-      real(dp) :: b(most), s(most, 2), by_sliding(most)
+      real(dp) :: b(max_nodes), s(max_nodes, 2), by_sliding(max_nodes)
       integer :: segment, first, last
 
       associate (unused => rho)

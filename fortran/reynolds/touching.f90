@@ -27,7 +27,7 @@ module ehl_touching
       !> length [a]
       real(dp) :: load_share = 0.0_dp, area = 0.0_dp
       !> Flow that the boundary film supplies at touching nodes, over the Couette flow through the line X = 0
-      real(dp) :: supply = 0.0_dp
+      real(dp) :: mass_defect = 0.0_dp
       !> Load share where the solids yield, area where they yield (unit as above), maximum depth of yielding [a^2/R], and the load
       !> share where they yield with a film above the boundary film
       real(dp) :: hard_share = 0.0_dp, hard_area = 0.0_dp, depth = 0.0_dp, flowing_share = 0.0_dp
@@ -67,7 +67,7 @@ contains
       end do
       m%load_share = sum(load)/sum(whole)
       m%area = sum(area)
-      m%supply = sum(supplied)/sum(flow)
+      m%mass_defect = sum(supplied)/sum(flow)
       m%hard_share = sum(hard)/sum(whole)
       m%flowing_share = sum(flowing)/sum(whole)
       m%depth = maxval(depth)
@@ -84,6 +84,6 @@ contains
    pure function numbers(self)
       class(touching_t), intent(in) :: self
       real(dp) :: numbers(size(touching_names))
-      numbers = [self%load_share, self%area, self%supply, self%hard_share, self%hard_area, self%depth, self%flowing_share]
+      numbers = [self%load_share, self%area, self%mass_defect, self%hard_share, self%hard_area, self%depth, self%flowing_share]
    end function numbers
 end module ehl_touching

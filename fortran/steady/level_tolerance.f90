@@ -74,13 +74,13 @@ contains
       type(steady_options_t), intent(in) :: options
       type(contact_results_t), intent(in) :: m
       share_counts = mostly_solid_contact(m) .or. (options%inlet%film > 0.0_dp .and. m%touching%load_share > 0.0_dp .and. &
-                                                          m%touching%supply <= much_mass_defect)
+                                                          m%touching%mass_defect <= much_mass_defect)
    end function share_counts
 
    !> Whether the boundary film supports most of the load, with a mass defect small enough for a well-posed contact
    pure logical function mostly_solid_contact(m)
       type(contact_results_t), intent(in) :: m
-      mostly_solid_contact = m%touching%load_share > mostly_touching .and. m%touching%supply <= much_mass_defect
+      mostly_solid_contact = m%touching%load_share > mostly_touching .and. m%touching%mass_defect <= much_mass_defect
    end function mostly_solid_contact
 
    !> Allowed algebraic errors of H_c and H_min on the present level

@@ -111,16 +111,16 @@ contains
 
    !> Maximum number of periods in the tile, along X and Y, of waves with at least `nodes` nodes per period (`more`: with more than
    !> `nodes`)
-   pure function resolved_waves(self, grid, nodes, more) result(most)
+   pure function resolved_waves(self, grid, nodes, more) result(max_order)
       class(height_map_t), intent(in) :: self
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: nodes
       logical, intent(in) :: more
-      integer :: most(2)
+      integer :: max_order(2)
       !> Margin for rounding errors
       real(dp), parameter :: slack = 1.0e-9_dp
 
-      most = int(min(self%waves%length/self%meshes(grid)/nodes*(1.0_dp + merge(-slack, slack, more)), &
+      max_order = int(min(self%waves%length/self%meshes(grid)/nodes*(1.0_dp + merge(-slack, slack, more)), &
                      0.5_dp*self%waves%pixels))
    end function resolved_waves
 
@@ -159,23 +159,23 @@ contains
       if (allocated(self%refined)) bytes = bytes + 8.0_dp*size(self%refined, 1)*real(size(self%refined, 2), dp)
    end function bytes
 
-   !> Number of points along X of the refined tile, for waves of at most `most` periods in it
-   pure integer function refined_points(self, most)
+   !> Number of points along X of the refined tile, for waves of at most `max_order` periods in it
+   pure integer function refined_points(self, max_order)
       class(height_map_t), intent(in) :: self
-      integer, intent(in) :: most
+      integer, intent(in) :: max_order
 
       refined_points = refinement*self%waves%pixels(1)
-      if (most < self%waves%pixels(1)/2) refined_points = min(refined_points, good_size(refinement*(2*most + 1)))
+      if (max_order < self%waves%pixels(1)/2) refined_points = min(refined_points, good_size(refinement*(2*max_order + 1)))
    end function refined_points
 
    !> Bytes of the waves, the refined heights and, during `prepare`, the waves of the rows
    pure real(dp) function bytes_on(self, grid)
       class(height_map_t), intent(in) :: self
       type(grid_t), intent(in) :: grid
-      integer :: most(2)
+      integer :: max_order(2)
 
-      most = self%resolved_waves(grid, aliased_below, .true.)
-      bytes_on = self%waves%bytes() + 8.0_dp*grid%ny*(self%refined_points(most(1)) + 2.0_dp*most(1))
+      max_order = self%resolved_waves(grid, aliased_below, .true.)
+      bytes_on = self%waves%bytes() + 8.0_dp*grid%ny*(self%refined_points(max_order(1)) + 2.0_dp*max_order(1))
    end function bytes_on
 
    !> Compute the refined heights on the rows of a grid, from the waves with more than two nodes per period
@@ -187,22 +187,22 @@ contains
       complex(c_double_complex), allocatable :: rows(:, :), column(:), row(:)
       real(dp), allocatable :: values(:)
       type(c_ptr) :: plan
-      integer :: i, j, n, most(2), stat
+      integer :: i, j, n, max_order(2), stat
 
       if (status%failed()) return
-      most = self%resolved_waves(grid, aliased_below, .true.)
-      n = self%refined_points(most(1))
+      max_order = self%resolved_waves(grid, aliased_below, .true.)
+      n = self%refined_points(max_order(1))
       if (allocated(self%refined)) deallocate (self%refined)
-      allocate (self%refined(n + points - 1, grid%ny), rows(grid%ny, 0:most(1)), column(-most(2):most(2)), &
+      allocate (self%refined(n + points - 1, grid%ny), rows(grid%ny, 0:max_order(1)), column(-max_order(2):max_order(2)), &
                 row(0:n/2), values(n), stat=stat)
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for the height map on "//to_text(grid%nx)//" x "//to_text(grid%ny)//" nodes")
          return
       end if
-      call chirp%setup(most(2), grid%ny, grid%y(1)/self%waves%length(2), grid%hy/self%waves%length(2), status)
+      call chirp%setup(max_order(2), grid%ny, grid%y(1)/self%waves%length(2), grid%hy/self%waves%length(2), status)
       if (status%failed()) return
-      do i = 0, most(1)
-         call self%waves%column(i, most(2), column)
+      do i = 0, max_order(1)
+         call self%waves%column(i, max_order(2), column)
          call chirp%apply(column, rows(:, i))
       end do
       call chirp%clear()
@@ -210,7 +210,7 @@ contains
       if (status%failed()) return
       do j = 1, grid%ny
          row = (0.0_dp, 0.0_dp)
-         row(:most(1)) = rows(j, :)
+         row(:max_order(1)) = rows(j, :)
          call fftw_execute_dft_c2r(plan, row, values)
          self%refined(:n, j) = values
          self%refined(n + 1:, j) = values(:points - 1)

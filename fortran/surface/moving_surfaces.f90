@@ -158,14 +158,14 @@ contains
       counts = .not. self%of(k)%surface%at_rest() .and. (self%of(k)%surface%passes_once .or. .not. self%pass_once())
    end function counts
 
-   !> Find the time in which the friction repeats: the smallest common period of all surfaces. If there is none within `most`
+   !> Find the time in which the friction repeats: the smallest common period of all surfaces. If there is none within `max_periods`
    !> periods of the slowest one, a time after which all are nearly in phase again, with a `mismatch`. For features, the time
    !> from when the first approaches the contact until the last has left, rounded up to whole periods of roughness on
    !> the other body.
-   pure subroutine find_period(self, most)
+   pure subroutine find_period(self, max_periods)
       class(moving_surfaces_t), intent(inout) :: self
       !> Maximum number of periods of the slowest surface
-      integer, intent(in) :: most
+      integer, intent(in) :: max_periods
       real(dp), allocatable :: periods(:), others(:)
       real(dp) :: passage
       integer :: k
@@ -201,17 +201,17 @@ contains
          return
       end if
       if (size(periods) == 1) return
-      self%repeats = common(periods, most)
-      if (self%repeats == 0) call find_near(self, periods, most)
+      self%repeats = common(periods, max_periods)
+      if (self%repeats == 0) call find_near(self, periods, max_periods)
       self%period = self%repeats*maxval(periods)
    end subroutine find_period
 
-   !> Smallest n such that n times the longest period is a common period of all; 0: none up to `most`
-   pure integer function common(periods, most)
+   !> Smallest n such that n times the longest period is a common period of all; 0: none up to `max_periods`
+   pure integer function common(periods, max_periods)
       real(dp), intent(in) :: periods(:)
-      integer, intent(in) :: most
+      integer, intent(in) :: max_periods
 
-      do common = 1, most
+      do common = 1, max_periods
          if (phase_mismatch(common*maxval(periods), periods) <= common*same) return
       end do
       common = 0
@@ -219,17 +219,17 @@ contains
 
    !> Find a number n of the longest periods after which all are nearly in phase again, with several relative positions:
    !> after 4 periods each, of nearly the same length, they have hardly moved relative to each other
-   pure subroutine find_near(self, periods, most)
+   pure subroutine find_near(self, periods, max_periods)
       class(moving_surfaces_t), intent(inout) :: self
       real(dp), intent(in) :: periods(:)
-      integer, intent(in) :: most
+      integer, intent(in) :: max_periods
       real(dp) :: mismatch
       integer :: n
 
-      self%repeats = most
+      self%repeats = max_periods
       self%mismatch = max_mismatch
       self%enough_positions = .false.
-      do n = 1, most
+      do n = 1, max_periods
          mismatch = phase_mismatch(n*maxval(periods), periods)
          if (positions(n, nint(n*maxval(periods)/minval(periods))) < min_positions .or. mismatch >= self%mismatch) cycle
          self%repeats = n

@@ -108,10 +108,10 @@ contains
       end do
    end subroutine cut
 
-   !> Variance of the waves with at most `most` periods in the tile along X and along Y
-   pure real(dp) function variance(self, most)
+   !> Variance of the waves with at most `max_order` periods in the tile along X and along Y
+   pure real(dp) function variance(self, max_order)
       class(tile_waves_t), intent(in) :: self
-      integer, intent(in) :: most(2)
+      integer, intent(in) :: max_order(2)
       real(dp) :: sums(self%pixels(2))
       integer :: j, last, nx, ny
 
@@ -119,16 +119,16 @@ contains
       ny = self%pixels(2)
       sums = 0.0_dp
       if (self%mirrored) then
-         last = min(nx/2, most(1) + 1)
-         do j = 1, min(ny/2, most(2) + 1)
+         last = min(nx/2, max_order(1) + 1)
+         do j = 1, min(ny/2, max_order(2) + 1)
             ! waves with q and -q along X, then along Y
             sums(j) = 2.0_dp*sum(self%cosines(:last, j)**2) - self%cosines(1, j)**2
             if (j > 1) sums(j) = 2.0_dp*sums(j)
          end do
       else
-         last = min(nx/2, most(1)) + 1
+         last = min(nx/2, max_order(1)) + 1
          do j = 1, ny
-            if (min(j - 1, ny + 1 - j) > most(2)) cycle
+            if (min(j - 1, ny + 1 - j) > max_order(2)) cycle
             ! components with q_x < 0 are not stored
             sums(j) = 2.0_dp*sum(self%spectrum(:last, j)%re**2 + self%spectrum(:last, j)%im**2) - abs(self%spectrum(1, j))**2
             if (2*(last - 1) == nx) sums(j) = sums(j) - abs(self%spectrum(last, j))**2
@@ -182,15 +182,15 @@ contains
       complex(c_double_complex) :: a(-(min(self%pixels(2), other%pixels(2))/2):min(self%pixels(2), other%pixels(2))/2)
       complex(c_double_complex) :: b(-(min(self%pixels(2), other%pixels(2))/2):min(self%pixels(2), other%pixels(2))/2)
       real(dp) :: sums(3, 2), terms(3, size(a)), squares(size(a))
-      integer :: k, l, most
+      integer :: k, l, max_order
 
-      most = size(a)/2
+      max_order = size(a)/2
       sums = 0.0_dp
       do k = 0, min(self%pixels(1), other%pixels(1))/2
-         call self%column(k, most, a)
-         call other%column(k, most, b)
+         call self%column(k, max_order, a)
+         call other%column(k, max_order, b)
          b = b*turned(-2.0_dp*k*ahead/self%length(1))
-         squares = [((k/self%length(1))**2 + (l/self%length(2))**2, l=-most, most)]
+         squares = [((k/self%length(1))**2 + (l/self%length(2))**2, l=-max_order, max_order)]
          terms(1, :) = a%re*b%re + a%im*b%im
          terms(2, :) = a%re**2 + a%im**2
          terms(3, :) = b%re**2 + b%im**2
@@ -201,12 +201,13 @@ contains
       where (sums(2, :)*sums(3, :) > 0.0_dp) both = sums(1, :)/(sqrt(sums(2, :))*sqrt(sums(3, :)))
    end function correlation
 
-   !> The waves with k periods along X and -most ... most along Y; half of the shortest (Nyquist) wave, which belongs to both q
+   !> The waves with k periods along X and -max_order ... max_order along Y; half of the shortest (Nyquist) wave, which belongs to
+   !> both q
    !> and -q
-   pure subroutine column(self, k, most, values)
+   pure subroutine column(self, k, max_order, values)
       class(tile_waves_t), intent(in) :: self
-      integer, intent(in) :: k, most
-      complex(c_double_complex), intent(out) :: values(-most:most)
+      integer, intent(in) :: k, max_order
+      complex(c_double_complex), intent(out) :: values(-max_order:max_order)
       real(dp) :: along
       integer :: l
 
@@ -215,14 +216,14 @@ contains
          ! a cosine series has no Nyquist wave
          if (2*k >= self%pixels(1)) return
          along = real(k, dp)/self%pixels(1)
-         do l = -min(most, self%pixels(2)/2 - 1), min(most, self%pixels(2)/2 - 1)
+         do l = -min(max_order, self%pixels(2)/2 - 1), min(max_order, self%pixels(2)/2 - 1)
             values(l) = self%cosines(k + 1, abs(l) + 1)*turned(along + l*(2*(self%pixels(2)/4) + 1)/real(self%pixels(2), dp))
          end do
       else
-         do l = -most, most
+         do l = -max_order, max_order
             values(l) = self%spectrum(k + 1, modulo(l, self%pixels(2)) + 1)
          end do
-         if (2*most == self%pixels(2)) values([-most, most]) = 0.5_dp*values([-most, most])
+         if (2*max_order == self%pixels(2)) values([-max_order, max_order]) = 0.5_dp*values([-max_order, max_order])
          if (2*k == self%pixels(1)) values = 0.5_dp*values
       end if
    end subroutine column

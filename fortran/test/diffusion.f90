@@ -29,6 +29,7 @@ module diffusion
       !> Transfer to the next coarser grid
       type(transfer_t) :: transfer
       type(product_work_t) :: work
+      !> D, solution, right-hand side, residual; 1 at nodes that are solved for, else 0
       real(dp), allocatable :: d(:, :), u(:, :), f(:, :), r(:, :), free(:, :)
    end type problem_t
 

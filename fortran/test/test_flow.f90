@@ -11,7 +11,7 @@ module test_flow
    use ehl_lubricant, only: density_constant, lubricant_t, new_lubricant, viscosity_barus
    use ehl_shear_thinning_flow, only: new_shear_thinning_flow, shear_thinning_flow_t
    use ehl_status, only: status_t
-   use ehl_thinning, only: carreau, eyring, most, thinning_t
+   use ehl_thinning, only: carreau, eyring, max_nodes, thinning_t
    implicit none (type, external)
    private
    public :: run_flow
@@ -70,20 +70,20 @@ contains
                                                 thinning_t(carreau, 0.8_dp)]
       type(factor_rows_t) :: rows
       type(factors_t) :: exact, fast
-      real(dp) :: b(most), s(most, 2), phase, worst(3)
+      real(dp) :: b(max_nodes), s(max_nodes, 2), phase, worst(3)
       integer :: i, k, l
 
       do l = 1, size(laws)
          worst = 0.0_dp
          do k = 1, 40
-            do i = 1, most
-               phase = real(i + most*k, dp)
+            do i = 1, max_nodes
+               phase = real(i + max_nodes*k, dp)
                b(i) = 10.0_dp**(4.0_dp + 8.0_dp*sin(1.7_dp*phase))
                if (mod(i, 7) == 0) b(i) = 0.0_dp
                s(i, :) = 10.0_dp**(2.0_dp*sin(2.3_dp*phase))*[cos(phase), sin(phase)]
             end do
-            call find_factors(laws(l), b(:most - k), s, rows)
-            do i = 1, most - k
+            call find_factors(laws(l), b(:max_nodes - k), s, rows)
+            do i = 1, max_nodes - k
                exact = exact_factors(laws(l), b(i), s(i, :))
                fast = of_node(rows, i)
                worst(1) = max(worst(1), maxval(abs(fast%phi/exact%phi - 1.0_dp)))
@@ -102,7 +102,7 @@ contains
    subroutine cached()
       type(thinning_t), parameter :: laws(4) = [thinning_t(eyring, 1.0_dp), thinning_t(carreau, 0.3_dp), &
                                                 thinning_t(carreau, 0.5_dp), thinning_t(carreau, 0.8_dp)]
-      integer, parameter :: nodes = 2*most + 1
+      integer, parameter :: nodes = 2*max_nodes + 1
       type(cached_factors_t) :: store
       type(factor_rows_t) :: rows, anew
       type(factors_t) :: exact
@@ -119,7 +119,7 @@ contains
          reach = 0.00999_dp/max(1.0_dp, store%law%curvature()/0.15_dp)
          do k = 1, 40
             do i = 1, store%width
-               phase = real(i + most*k, dp)
+               phase = real(i + max_nodes*k, dp)
                b(i) = 10.0_dp**(4.0_dp + 8.0_dp*sin(1.7_dp*phase))
                s(i, :) = 10.0_dp**(1.5_dp*sin(2.3_dp*phase))*[cos(phase), sin(phase)]
             end do

@@ -52,7 +52,7 @@ contains
          call step(run, status)
          call is_true(run%outcome == outcome_running, "a step converges")
       end do
-      associate (level => run%hierarchy%levels(n), space => run%hierarchy%workspaces(n))
+      associate (level => run%hierarchy%levels(n))
          p = level%p
          h = level%h
          h00 = level%h00

@@ -115,8 +115,8 @@ class Layout:
         self.stamp = ColumnDataSource(
             {"asked": [0], "generation": [0], "points": [0]}, name="stamp"
         )
-        self.parcel = ColumnDataSource({"name": [""], "data": [""]}, name="parcel")
-        self.parcel.js_on_change("data", CustomJS(args={"source": self.parcel}, code=SAVE))
+        self.download = ColumnDataSource({"name": [""], "data": [""]}, name="download")
+        self.download.js_on_change("data", CustomJS(args={"source": self.download}, code=SAVE))
         self.case = TextAreaInput(
             title="case file", rows=14, width=350, name="case", disabled=True,
             stylesheets=["textarea{font-family:monospace;font-size:80%}"],
@@ -148,7 +148,7 @@ class Layout:
         for name, root in self.roots.items():
             root.name = name
         # invisible models must be in the document to reach the browser
-        self.roots["files"].tags = [self.stamp, self.parcel, pictures.changes.source]
+        self.roots["files"].tags = [self.stamp, self.download, pictures.changes.source]
 
     def _file(
         self,

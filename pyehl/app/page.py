@@ -51,8 +51,8 @@ class Page:
         self._films: dict[int, Film] = {}
         self.worker = Worker(partial(self._later, self._answered), "pyehl-page")
         self.curves = Worker(partial(self._later, self._drawn), "pyehl-curve")
-        self.parcels = {
-            name: Worker(partial(self._later, partial(self._fetched, name)), "pyehl-parcel")
+        self.downloads = {
+            name: Worker(partial(self._later, partial(self._fetched, name)), "pyehl-download")
             for name in DOWNLOADS
         }
         self._making: list[str] = []
@@ -85,7 +85,7 @@ class Page:
     @property
     def workers(self) -> tuple[Worker, ...]:
         """All threads of the page."""
-        return self.worker, self.curves, *self.parcels.values()
+        return self.worker, self.curves, *self.downloads.values()
 
     def _later(self, show: Any, generation: int, answer: Any) -> None:  # noqa: ANN401
         """Show what a worker reports when the page has time; called in its thread."""
@@ -239,7 +239,7 @@ class Page:
 
         self._making.append(what)
         self._say_making()
-        self.parcels[what].submit(job)
+        self.downloads[what].submit(job)
 
     def _say_making(self, why: str = "") -> None:
         names = ", ".join(dict.fromkeys(self._making))
@@ -254,9 +254,9 @@ class Page:
             text = str(answer) if isinstance(answer, EhlError | OSError) else repr(answer)
             why = self.uploads.without_folders(text)
         else:
-            parcel = {"name": [what], "data": [base64.b64encode(answer).decode()]}
-            self.layout.parcel.data = parcel
-        if generation == self.parcels[what].generation:
+            data = base64.b64encode(answer).decode()
+            self.layout.download.data = {"name": [what], "data": [data]}
+        if generation == self.downloads[what].generation:
             self._making = [name for name in self._making if name != what]
         self._say_making(why)
 

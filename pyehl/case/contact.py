@@ -274,7 +274,7 @@ def _complete_line(draft: Draft, first: str, radius: float, modulus: float) -> N
 
 
 def _reduced(one: float, other: float) -> float:
-    """R with 1/R = 1/R_1 + 1/R_2; a flat body has 0, and 0 means that the gap does not open."""
+    """R with 1/R = 1/R_1 + 1/R_2, 0 for a flat body; 0 if the gap does not open."""
     curvature = 0.0
     for radius in (one, other):
         if radius != 0.0:

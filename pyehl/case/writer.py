@@ -130,10 +130,10 @@ def _of_lubricant(settings: Settings) -> Iterator[str]:
     if oil.alpha_origin == "given":
         yield "alpha_origin"
     sheet = oil.kinematic_viscosity_40 > 0.0
-    warm = oil.knows_temperature or oil.temperature_viscosity > 0.0
-    if not warm:
+    with_temperature = oil.knows_temperature or oil.temperature_viscosity > 0.0
+    if not with_temperature:
         yield "temperature"
-    if not (sheet if oil.density_law == "tait" else warm):
+    if not (sheet if oil.density_law == "tait" else with_temperature):
         yield "thermal_expansion"
     if not sheet:
         yield "density_15"

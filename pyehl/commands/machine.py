@@ -30,7 +30,9 @@ def add_machine_arguments(parser: argparse.ArgumentParser, what: str) -> None:
         help="film formulas, smooth solutions or predictions with roughness (default: film)",
     )
     add_worker_arguments(parser, required=False)
-    parser.add_argument("--json", action="store_true", help="print the sums as JSON, in SI units")
+    parser.add_argument(
+        "--json", action="store_true", help="print the summary as JSON, in SI units"
+    )
 
 
 def execute_machine(args: argparse.Namespace, command: str, kinds: tuple[str, ...]) -> int:

@@ -58,14 +58,14 @@ def _other_spectra(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """Describe the predictions with other roll-offs."""
     if not rows:
         return []
-    typical = (f"{k} {lengths.length(f.rolloff, most='um')}" for k, f in FINISHES.items())
+    typical = (f"{k} {lengths.length(f.rolloff, max_unit='um')}" for k, f in FINISHES.items())
     lines = [
         f"spectrum   not determined by Ra; typical roll-offs: {', '.join(typical)};",
         "           with a roll-off of the spectrum at",
     ]
     for row in rows:
         where = "none" if row["rolloff_wavelength_m"] is None else (
-            lengths.length(row["rolloff_wavelength_m"], most="um")
+            lengths.length(row["rolloff_wavelength_m"], max_unit="um")
         )  # fmt: skip
         if row["status"] == "predicted":
             what = f"minimum film {lengths.length(row['h_min_rough_m'])}, "

@@ -133,11 +133,11 @@ def roller_bearing(machine: Machine) -> Bearing:
     stiffness = roller_stiffness(machine.reduced_modulus, v.roller_length)
     u = 0.25 * speed * pitch * (1.0 - (d * math.cos(axis) / pitch) ** 2)
 
-    def contact(place: str, load: float, name: str, most: float = 0.0) -> Contact:
+    def contact(place: str, load: float, name: str, max_load: float = 0.0) -> Contact:
         # radius of the cone in the plane normal to the raceway, at half the length of the roller
         raceway = 0.5 * (RINGS[name] * pitch - d * math.cos(axis)) / math.cos(angles[name])
         radii = (0.5 * d / math.cos(half), math.inf, raceway, math.inf)
-        light = load < LIGHT_FRACTION * most
+        light = load < LIGHT_FRACTION * max_load
         return Contact(place, load, u, 0.0, radii, length=v.roller_length, may_be_light=light)
 
     if v.clearance < 0.0:
@@ -208,10 +208,10 @@ def _pitch(machine: Machine, element: float, count: int, elements: str) -> float
     if element >= pitch:
         what = f"{elements} of {element:.4g} m do not fit round a pitch diameter of {pitch:.4g} m"
         machine.refuse(name, what, f"{name} below {pitch:.4g} m")
-    most = int(math.pi / math.asin(element / pitch))
-    if count > most:
+    max_count = int(math.pi / math.asin(element / pitch))
+    if count > max_count:
         what = f"{count} {elements} of {element:.4g} m do not fit round a pitch diameter of "
-        machine.refuse(elements, f"{what}{pitch:.4g} m", f"at most {most} {elements}")
+        machine.refuse(elements, f"{what}{pitch:.4g} m", f"at most {max_count} {elements}")
     return pitch
 
 
@@ -226,21 +226,19 @@ def _speed(machine: Machine) -> float:
 def _ball_clearance(machine: Machine, centres: float) -> float:
     """Diametral clearance [m], given or from the contact angle; `centres` as in `equilibrium`."""
     v = machine.values
-    steepest = 2.0 * centres * (1.0 - math.cos(math.radians(MAX_ANGLE)))
+    limit = 2.0 * centres * (1.0 - math.cos(math.radians(MAX_ANGLE)))
     if v.contact_angle == 0.0:
-        if v.clearance > steepest:
+        if v.clearance > limit:
             what = (
                 f"a clearance of {v.clearance:.3g} m: the contact angle exceeds {MAX_ANGLE:g} deg"
             )
-            machine.refuse(
-                "clearance", what, f"clearance of at most {steepest:.3g} m; 10 um is 1e-5"
-            )
+            machine.refuse("clearance", what, f"clearance of at most {limit:.3g} m; 10 um is 1e-5")
         return float(v.clearance)
-    play = 2.0 * centres * (1.0 - math.cos(math.radians(v.contact_angle)))
-    if machine.is_given("clearance") and abs(v.clearance - play) > 1e-3 * play:
-        what = f"a contact angle of {v.contact_angle:g} deg is a clearance of {play:.4g} m"
+    derived = 2.0 * centres * (1.0 - math.cos(math.radians(v.contact_angle)))
+    if machine.is_given("clearance") and abs(v.clearance - derived) > 1e-3 * derived:
+        what = f"a contact angle of {v.contact_angle:g} deg is a clearance of {derived:.4g} m"
         machine.refuse("clearance", f"{what}, not {v.clearance:.4g} m", "one of the two")
-    return play
+    return derived
 
 
 def _check_preload(machine: Machine, pressure: float, limit: float, power: float) -> None:
@@ -262,15 +260,15 @@ def _facts(
     v, ring = machine.values, result.ring
     gamma = d * math.cos(angle) / pitch
     cage = 0.5 * (v.inner_speed * (1.0 - gamma) + v.outer_speed * (1.0 + gamma))
-    most = float(ring.loads.max())
+    max_load = float(ring.loads.max())
     result.facts.update(
         pitch_diameter_m=pitch,
         cage_speed_per_min=cage,
         displacement_radial_m=ring.radial,
         displacement_axial_m=ring.axial,
-        load_max_N=most,
+        load_max_N=max_load,
         elements_loaded=int((ring.loads > 0.0).sum()),
         centrifugal_force_N=DENSITY * volume * 0.5 * pitch * (RPM * cage) ** 2,
     )
     if v.radial_load > 0.0:
-        result.facts["load_max_Z_over_F"] = most * len(ring.loads) / v.radial_load
+        result.facts["load_max_Z_over_F"] = max_load * len(ring.loads) / v.radial_load

@@ -110,7 +110,7 @@ def groove_sliding(film: Film, h_c: float) -> float:
         share = np.divide(along, size, out=np.zeros_like(size), where=size > 0.0)
         return float(np.sum(area * tau * share))
 
-    most = float(fall.max()) + abs(contact.spin) * b
-    level = brentq(pull, -most, most, xtol=1e-14 * most) if most > 0.0 else 0.0
+    bound = float(fall.max()) + abs(contact.spin) * b
+    level = brentq(pull, -bound, bound, xtol=1e-14 * bound) if bound > 0.0 else 0.0
     _, size, tau = stress(level)
     return float(np.sum(area * tau * size))

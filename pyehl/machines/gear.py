@@ -163,14 +163,14 @@ def mesh_of(machine: Machine) -> Mesh:
     end = math.sqrt(tips[0] ** 2 - base[0] ** 2) - base[0] * tangent
     for i, other, radius in ((1, 2, base[0] * tangent + begin), (2, 1, base[1] * tangent - end)):
         if radius <= 0.0:
-            most = 2.0 * math.hypot(base[other - 1], distance * math.sin(working))
+            limit = 2.0 * math.hypot(base[other - 1], distance * math.sin(working))
             what = f"the tip of gear {other} reaches below the base circle of gear {i}"
             key = (
                 f"tip_diameter_{other}"
                 if machine.is_given(f"tip_diameter_{other}")
                 else f"teeth_{i}"
             )
-            machine.refuse(key, what, f"tip_diameter_{other} below {most:.5g} m, or more teeth")
+            machine.refuse(key, what, f"tip_diameter_{other} below {limit:.5g} m, or more teeth")
     mesh = Mesh(distance, working, base, (tips[0], tips[1]), pitch, (begin, end))
     if not 1.0 <= mesh.contact_ratio < 2.0:
         what = f"the contact ratio is {mesh.contact_ratio:.4g}"

@@ -200,9 +200,9 @@ def summary_of(
     kind = "gear" if isinstance(made, GearPair) else "bearing"
     result: dict[str, Any] = {"kind": kind, "machine": machine.kind, "contacts": len(table)}
     result |= made.facts | {"rms_height_m": sigma}
-    most, minimum = table["hertz_pressure_Pa"], table["h_min_m"]
+    pressures, minimum = table["hertz_pressure_Pa"], table["h_min_m"]
     result |= {
-        "hertz_pressure_max_Pa": float(most.max()),
+        "hertz_pressure_max_Pa": float(pressures.max()),
         "h_min_m": float(minimum.min(skipna=False)),
     }
     result["h_c_min_m"] = float(table["h_c_m"].min(skipna=False))

@@ -249,7 +249,7 @@ class Advice:
                 key = f"{name}{' ' if name == 'both' else '.'}shortest_wavelength"
                 lines.append(
                     f"full film  with {key} = {length:.4g}: without waves shorter than "
-                    f"{lengths.length(length, most='um')}"
+                    f"{lengths.length(length, max_unit='um')}"
                 )
         if self.outliers is None and not any(self.wavelengths):
             cut = "short waves" if two else "spikes or short waves"

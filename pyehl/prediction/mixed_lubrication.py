@@ -124,7 +124,7 @@ class MixedContact:
 
     def _mass_defect(self, deficit: Array) -> float:
         """Film increase by the mass defect of the boundary film [a^2/R]; deficit (m, n)."""
-        most = deficit.copy()
+        maximum = deficit.copy()
         direction = 1 if self.velocity_ratio > 1.0 else -1
         for step in range(1, int(np.abs(self.slip_path).max()) + 1):
             # peaks that are faster than the lubricant are now ahead of the column that they passed
@@ -132,8 +132,8 @@ class MixedContact:
             ahead, here = slice(step, None), slice(None, -step)
             met[here if direction > 0 else ahead] = deficit[ahead if direction > 0 else here]
             passed = np.abs(self.slip_path) >= step
-            most[passed] = np.maximum(most, met)[passed]
-        of_all = most[self.rough.inside]
+            maximum[passed] = np.maximum(maximum, met)[passed]
+        of_all = maximum[self.rough.inside]
         low, high = 0.0, max(0.0, float(of_all.max()))
         while high - low > DEFECT_TOLERANCE * self.boundary:
             middle = 0.5 * (low + high)

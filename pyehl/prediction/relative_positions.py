@@ -189,9 +189,8 @@ class RelativePositions:
     def _over_all(
         self, contact: MovingContact, positions: int, largest: float
     ) -> tuple[int, int, Array, float]:
-        fewest = math.isqrt(positions) + 1 if positions else 0
         before = math.nan
-        for m in [fewest] if positions else LATTICES:
+        for m in (math.isqrt(positions) + 1,) if positions else LATTICES:
             n = m * m - 1
             ratios = np.array(contact.frictions([self.shifts(k, n, m) for k in range(n)]))
             mean, error = float(ratios.mean()), _undecided(ratios)

@@ -15,7 +15,7 @@ OPTIONS = (
     "--headless --disable-gpu --disable-quic --no-first-run --disable-background-networking "
     "--disable-component-update --disable-sync --no-pdf-header-footer"
 ).split()
-PATIENCE = 120.0
+TIMEOUT = 120.0
 """Maximum time of a print [s]."""
 
 
@@ -44,7 +44,7 @@ def write_pdf(page: Path, path: Path) -> Path:
             done = subprocess.run(
                 [program, *words, page.resolve().as_uri()],
                 capture_output=True,
-                timeout=PATIENCE,
+                timeout=TIMEOUT,
                 check=False,
             )
         except (OSError, subprocess.TimeoutExpired) as error:

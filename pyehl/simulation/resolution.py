@@ -47,9 +47,10 @@ class Resolution:
     def __str__(self) -> str:
         """Describe it in one line."""
         increase, part = self.mu_ratio - 1.0, self.unresolved
+        shortest = lengths.length(self.shortest, max_unit="um")
         return (
             f"predicted   mu_r/mu_s {self.mu_ratio:.3f}; of the increase {increase:+.3f}, "
-            f"{part:+.3f} come from waves shorter than {lengths.length(self.shortest, most='um')}, "
+            f"{part:+.3f} come from waves shorter than {shortest}, "
             f"{NODES} nodes of this grid" + (f" (predicted with {self.part})" if self.part else "")
         )
 

@@ -207,7 +207,7 @@ def wall_seconds(seconds: Sequence[float], jobs: int, repeat: float = 1.0) -> fl
 
 
 THREADS = "solver.threads"
-MAX_CHECKED, PATIENCE = 5000, 5.0
+MAX_CHECKED, MAX_SECONDS = 5000, 5.0
 """Maximum number of cases, and maximum seconds, of the checks of a plan without a run."""
 CASE_BYTES = 12_000
 """Memory of a waiting case, mostly its resolved text."""
@@ -296,8 +296,8 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
     """Resolve and check all cases of a study.
 
     `keep` is the folder for a result folder of each case. `brief`: the plan is not run, and of more
-    than `MAX_CHECKED` cases it has only as many as can be checked in `PATIENCE`. InputError names a
-    case that is not acceptable and the reason, or reports more cases than fit into memory.
+    than `MAX_CHECKED` cases it has only as many as can be checked in `MAX_SECONDS`. InputError
+    names a case that is not acceptable and the reason, or reports more cases than fit into memory.
     """
     brief = brief and study.size > MAX_CHECKED
     if not brief:
@@ -310,7 +310,7 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
     files: dict[str, None] = {}
     began = time.monotonic()
     for number in study.spread(MAX_CHECKED) if brief else range(study.size):
-        if brief and time.monotonic() - began > PATIENCE:
+        if brief and time.monotonic() - began > MAX_SECONDS:
             break
         point = study.point(number)
         case = study.resolved(point, *one_thread)

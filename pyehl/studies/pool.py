@@ -41,7 +41,7 @@ ENVIRONMENT = {
 }
 # Seconds to wait for the scheduler; seconds between checks that the parent of a worker is alive;
 # seconds that a worker waits for the next study
-PATIENCE, LOOK, KEPT = 20, 0.2, 10
+CONNECT_TIMEOUT, CHECK_INTERVAL, IDLE_TIMEOUT = 20, 0.2, 10
 
 
 def processors() -> int:
@@ -113,7 +113,7 @@ def _begin(parent: int) -> None:
 def _end_without(parent: int) -> None:
     """Wait until the parent has died, then end this process."""
     while os.getppid() == parent:
-        time.sleep(LOOK)
+        time.sleep(CHECK_INTERVAL)
     os._exit(0)
 
 
@@ -184,7 +184,7 @@ os.register_at_fork(after_in_child=_spares.clear)
 
 
 def _keep(executor: ProcessPoolExecutor) -> None:
-    """Keep an executor for the next study, for `KEPT` seconds.
+    """Keep an executor for the next study, for `IDLE_TIMEOUT` seconds.
 
     The timeout of loky is not used: with it, loky does not notice the death of a worker that
     replaced another one.
@@ -197,7 +197,7 @@ def _keep(executor: ProcessPoolExecutor) -> None:
             executor.shutdown(kill_workers=True)
 
     _spares.append(executor)
-    timer = threading.Timer(KEPT, end)
+    timer = threading.Timer(IDLE_TIMEOUT, end)
     timer.daemon = True
     timer.start()
 
@@ -247,7 +247,7 @@ def cluster_rows(tasks: Sequence[Task], address: str) -> Generator[list[tuple[in
     except ImportError as error:
         raise InputError("a scheduler needs dask: pip install 'pyehl[cluster]'") from error
     try:
-        client = Client(address, timeout=PATIENCE, set_as_default=False)
+        client = Client(address, timeout=CONNECT_TIMEOUT, set_as_default=False)
     except (OSError, ValueError) as error:
         raise EhlError(f"the dask scheduler at '{address}' does not answer: {error}") from error
     study = uuid.uuid4().hex

@@ -198,17 +198,17 @@ def _difference(step: Step, here: Callable[[str], object], over: Quantity) -> st
 
 def lines(result: list[Compared]) -> list[str]:
     """Give the lines that ``pyehl compare --measured`` prints."""
-    lines = []
+    text = []
     for one in result:
         curve = one.curve
         repeats = int(curve.count.max())
-        lines.append(
+        text.append(
             f"{curve.quantity} over {curve.over}: {curve.places.size} measured points"
             + (f", means of up to {repeats}" if repeats > 1 else "")
         )
         if repeats > 1:
             known = np.isfinite(curve.scatter)
             scatter = float(np.median(curve.scatter[known] / curve.values[known]))
-            lines.append(f"   scatter of repeats {scatter:.1%} (median)")
-        lines += [f"   {part}" for part in one.parts]
-    return lines + [f"left out  {words}" for words in result[0].left_out]
+            text.append(f"   scatter of repeats {scatter:.1%} (median)")
+        text += [f"   {part}" for part in one.parts]
+    return text + [f"left out  {words}" for words in result[0].left_out]

@@ -32,9 +32,9 @@ LOGICAL = {".true.": True, ".false.": False}
 
 @dataclass(frozen=True, slots=True)
 class Axis:
-    """One key ``group.name`` of a case file and its values."""
+    """One key ``group.key`` of a case file and its values."""
 
-    key: str  # ``group.name``
+    key: str  # ``group.key``
     values: tuple[Value, ...]  # all of one type: float, int, bool or str
 
 

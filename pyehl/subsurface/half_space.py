@@ -176,7 +176,7 @@ class Images:
     ) -> None:
         # the effect of images decays as 1/distance for a line, as 1/distance^2 for a point contact
         far = FAR_LINE if any(periodic) else FAR
-        self.falls = float(far if any(periodic) else far**2)
+        self.decay = float(far if any(periodic) else far**2)
         self.blocks = blocks
         self.to_fine = [_interpolation(n, b) for n, b in zip(shape, blocks, strict=True)]
         far_x, far_y = (n if p else far * n for n, p in zip(cell, periodic, strict=True))
@@ -233,7 +233,7 @@ class ImagesAt:
 
     def left(self, pressure: Array, traction: Array | None) -> float:
         """Bound on the remaining stress of images, those of the larger cell."""
-        return float(np.max(np.abs(self.under(pressure, traction)))) / self._images.falls
+        return float(np.max(np.abs(self.under(pressure, traction)))) / self._images.decay
 
 
 @dataclass(frozen=True, slots=True)

@@ -53,7 +53,7 @@ def extent(heights: Array, pixel: tuple[float, float]) -> Extent:
             return Extent(math.nan, math.nan, math.nan)
         mean = math.fsum(float(np.nansum(part)) for part in parts) / present
     count, square, slopes, slope = 0, 0.0, 0, 0.0
-    minimum, most = math.inf, -math.inf
+    minimum, maximum = math.inf, -math.inf
     for first in range(0, heights.shape[0], lines):
         z = heights[first : first + lines + 1] - mean
         inner = z[:lines]
@@ -61,7 +61,7 @@ def extent(heights: Array, pixel: tuple[float, float]) -> Extent:
         if good.size:
             count += good.size
             square += float(np.einsum("i,i->", good, good))
-            minimum, most = min(minimum, float(good.min())), max(most, float(good.max()))
+            minimum, maximum = min(minimum, float(good.min())), max(maximum, float(good.max()))
         # at the points that have a neighbour along x and along y
         dx = np.diff(z, axis=0)[:, :-1]
         dy = np.diff(z, axis=1)[:-1]
@@ -76,7 +76,7 @@ def extent(heights: Array, pixel: tuple[float, float]) -> Extent:
             part = float(np.nansum(dx))
         slope += part
     gradient = math.sqrt(slope / slopes) / pixel[1] if slopes else math.nan
-    return Extent(math.sqrt(square / count), max(most, -minimum), gradient)
+    return Extent(math.sqrt(square / count), max(maximum, -minimum), gradient)
 
 
 def areal_numbers(heights: Array, pixel: tuple[float, float]) -> dict[str, float]:

@@ -227,7 +227,7 @@ def windowed(heights: Array) -> Array:
     return tile
 
 
-def margin(shape: tuple[int, int]) -> int:
+def tapered_points(shape: tuple[int, int]) -> int:
     """Count the points of a map (nx, ny) = `shape` that `windowed` tapers."""
     inside = [int(np.count_nonzero(_taper(n) == 1.0)) for n in shape]
     return shape[0] * shape[1] - inside[0] * inside[1]
@@ -371,8 +371,8 @@ def _largest_part(count: Array, area: Array) -> tuple[int, int, int, int] | None
         for j in range(i + 1, count.shape[0] + 1):
             absent, whole = sums[j] - sums[i], areas[j] - areas[i]
             size = whole[np.newaxis, :] - whole[:, np.newaxis]
-            few = absent[np.newaxis, :] - absent[:, np.newaxis] <= GOOD_PART * size
-            size = np.where(few, size, 0.0)
+            good = absent[np.newaxis, :] - absent[:, np.newaxis] <= GOOD_PART * size
+            size = np.where(good, size, 0.0)
             place = int(size.argmax())
             if size.flat[place] > best:
                 best, result = float(size.flat[place]), (i, j, *divmod(place, size.shape[1]))
@@ -420,21 +420,21 @@ def prominence(heights: Array) -> Array:
     missing = ~np.isfinite(heights)
     z = levelled(heights)
     largest = max(float(z.max()), -float(z.min()))
-    above = np.empty(z.shape)
+    deviation = np.empty(z.shape)
     for first in range(0, z.shape[0], LINES):
         # a block of lines at a time, with the neighbours that the medians need
         part = z[max(0, first - WINDOW) : first + LINES + WINDOW]
         inner = slice(first - max(0, first - WINDOW), None)
         median = scipy.ndimage.median_filter(part, WINDOW, mode="nearest")[inner][:LINES]
-        np.abs(z[first : first + LINES] - median, out=above[first : first + LINES])
+        np.abs(z[first : first + LINES] - median, out=deviation[first : first + LINES])
     del z
-    spread = MAD_TO_SIGMA * float(np.median(above[~missing], overwrite_input=True))
+    spread = MAD_TO_SIGMA * float(np.median(deviation[~missing], overwrite_input=True))
     # for a plane only rounding errors remain
     if not spread > 1e-12 * largest:
         raise InputError(
             "surface.outliers: at least half of the map is flat to the last digit: there is no "
             "spread to compare spikes with; remove them in the program of the instrument"
         )
-    above /= spread
-    above[missing] = 0.0
-    return above
+    deviation /= spread
+    deviation[missing] = 0.0
+    return deviation

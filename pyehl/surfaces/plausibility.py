@@ -22,6 +22,7 @@ STEEP = 1.0
 SAMPLE = 2**17
 """Number of heights, and of slopes, of a large map that are examined."""
 LINES = 256
+"""Number of lines of a map that are processed at a time."""
 NORMAL = 0.6744897501960817
 """Median of the absolute value of a normal distribution, over its standard deviation."""
 

@@ -162,7 +162,9 @@ def _join(work: WorkingMap, options: Options, why: dict[str, str]) -> None:
         work.add_step("edges", "mirror", prepared, why["edges"])
     elif options.edges == "window":
         tile = map_steps.windowed(prepared)
-        work.add_step("edges", "window", tile, why["edges"], changed=map_steps.margin(tile.shape))
+        work.add_step(
+            "edges", "window", tile, why["edges"], changed=map_steps.tapered_points(tile.shape)
+        )
         tile -= tile.mean()
     elif (steep := map_steps.jump(prepared)) > MAX_JUMP:
         note = (

@@ -138,10 +138,10 @@ def part_of(
     """
     if heights.size * (4 if images else 1) <= LARGE_PIXELS:
         return None
-    most = PART_PIXELS // 4
-    side = int(most**0.5)
-    nx = min(heights.shape[0], max(side, most // heights.shape[1]))
-    ny = min(heights.shape[1], most // nx)
+    pixels = PART_PIXELS // 4
+    side = int(pixels**0.5)
+    nx = min(heights.shape[0], max(side, pixels // heights.shape[1]))
+    ny = min(heights.shape[1], pixels // nx)
     i, j = (heights.shape[0] - nx) // 2, (heights.shape[1] - ny) // 2
     tile = mirrored(heights[i : i + nx, j : j + ny])
     tile -= tile.mean()

@@ -188,8 +188,8 @@ class Record:
 
 def _largest(z: Array) -> float:
     """Largest absolute height, ignoring missing points; makes no copies."""
-    most = float(np.fmax.reduce(z, axis=None, initial=0.0))
-    return max(most, -float(np.fmin.reduce(z, axis=None, initial=0.0)))
+    maximum = float(np.fmax.reduce(z, axis=None, initial=0.0))
+    return max(maximum, -float(np.fmin.reduce(z, axis=None, initial=0.0)))
 
 
 class WorkingMap:

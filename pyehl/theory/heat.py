@@ -63,9 +63,9 @@ def flash_temperature(
     the contact [m/s], k [W/(m K)] and kappa [m^2/s] of the solids; `potential` as
     :attr:`pyehl.theory.ellipse.Ellipse.potential` [-].
     """
-    rest, power = 1.234 / potential**2, min(1.0, potential**NARROW)
+    stationary, power = 1.234 / potential**2, min(1.0, potential**NARROW)
     roots = 0.0
     for u, k, kappa in zip(speeds, conductivity, diffusivity, strict=True):
         peclet = abs(u) * half / (2.0 * kappa)
-        roots += k * math.sqrt(math.pi * (rest**power + peclet**power) ** (1.0 / power))
+        roots += k * math.sqrt(math.pi * (stationary**power + peclet**power) ** (1.0 / power))
     return 2.32 * flux * half / roots

@@ -30,13 +30,15 @@ class LoadShare:
 
     def __post_init__(self) -> None:
         """Check the numbers."""
-        for name, number, most in (
+        for name, number, maximum in (
             ("boundary friction", self.boundary_friction, 1.0),
             ("B", self.b, 100.0),
             ("C", self.c, 10.0),
         ):
-            if not (math.isfinite(number) and 0.0 < number <= most):
-                raise InputError(f"{name} = {number!r}: expected a number above 0, up to {most:g}")
+            if not (math.isfinite(number) and 0.0 < number <= maximum):
+                raise InputError(
+                    f"{name} = {number!r}: expected a number above 0, up to {maximum:g}"
+                )
 
     @property
     def words(self) -> str:

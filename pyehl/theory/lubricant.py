@@ -216,9 +216,9 @@ class Lubricant:
         words = ""
         if low < high and not low <= self.temperature <= high:
             words = f"; the lubricant was measured from {low:g} to {high:g} degC"
-        most = self.range_pressure_max
-        if 0.0 < most < pressure and self.constants:
-            words += f"; the lubricant was measured up to {most:.3g} Pa"
+        maximum = self.range_pressure_max
+        if 0.0 < maximum < pressure and self.constants:
+            words += f"; the lubricant was measured up to {maximum:.3g} Pa"
         return words
 
     def _compiled(self, pressure: Array, rise: Array) -> tuple[Array, Array]:

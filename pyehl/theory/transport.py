@@ -242,12 +242,12 @@ def upstream(
     return np.asarray(mu * back / np.interp(INLET, zone.x, zone.density))
 
 
-def _growth(turn: Complex) -> tuple[Complex, Complex]:
-    """exp(t) and (exp(t) - 1)/t."""
-    growth = np.exp(turn)
-    still = np.abs(turn) < 1e-6
-    turn[still] = 1.0
-    mean_growth = (growth - 1.0) / turn
+def _growth(t: Complex) -> tuple[Complex, Complex]:
+    """exp(t) and (exp(t) - 1)/t; overwrites t where it is small."""
+    growth = np.exp(t)
+    still = np.abs(t) < 1e-6
+    t[still] = 1.0
+    mean_growth = (growth - 1.0) / t
     mean_growth[still] = 1.0
     return growth, mean_growth
 

@@ -27,7 +27,7 @@ FILMS = (
 
 
 class Line:
-    """The equations on a grid, scaled by a state of reference with M and L."""
+    """The equations on a grid, scaled by a reference state with M and L."""
 
     def __init__(
         self,
@@ -40,7 +40,7 @@ class Line:
         self.x = np.linspace(*domain, intervals + 1)
         self.h, self.n, self.z = self.x[1] - self.x[0], intervals, exponent
         self.p_h = moes_l * np.sqrt(moes_m / (2.0 * np.pi)) / ALPHA
-        self.slowness = 8.0 * moes_m**2 / (3.0 * np.pi**2)
+        self.inverse_speed = 8.0 * moes_m**2 / (3.0 * np.pi**2)
 
         def antiderivative(s):
             s = np.abs(s)
@@ -82,7 +82,7 @@ class Line:
         c, ratio = ALPHA * P0 / self.z, 1.0 + p_h * p / P0
         rho = (5.9e8 + 1.34 * p_h * p) / (5.9e8 + p_h * p)
         drho = p_h * 0.34 * 5.9e8 / (5.9e8 + p_h * p) ** 2
-        eps = self.slowness / viscosity * rho * gap**3 * np.exp(-c * (ratio**self.z - 1.0))
+        eps = self.inverse_speed / viscosity * rho * gap**3 * np.exp(-c * (ratio**self.z - 1.0))
         by_p = eps * (drho / rho - c * self.z * p_h / P0 * ratio ** (self.z - 1.0))
         east = 0.5 * (eps[1:-1] + eps[2:]) / h**2
         west = 0.5 * (eps[1:-1] + eps[:-2]) / h**2
@@ -122,15 +122,15 @@ class Line:
             jacobian[held], residual[held] = 0.0, p[held]
             jacobian[held, held] = 1.0
             step = np.linalg.solve(jacobian, -residual)
-            share = 1.0
-            while share > 1e-3:
-                tried = np.maximum(0.0, p + share * step[:-1])
+            damping = 1.0
+            while damping > 1e-3:
+                tried = np.maximum(0.0, p + damping * step[:-1])
                 if (
-                    h00 + share * step[-1] + curvature * x**2 / 2.0 + k @ tried
+                    h00 + damping * step[-1] + curvature * x**2 / 2.0 + k @ tried
                 ).min() > 0.3 * gap.min():
                     break
-                share *= 0.5
-            p, h00 = np.maximum(0.0, p + share * step[:-1]), h00 + share * step[-1]
+                damping *= 0.5
+            p, h00 = np.maximum(0.0, p + damping * step[:-1]), h00 + damping * step[-1]
             if np.abs(step).max() < 1e-9:
                 break
         return p, h00
@@ -138,9 +138,9 @@ class Line:
     def films(self, p, h00, curvature=1.0):
         """Central film by a cubic through four nodes, minimum film by a parabola."""
         x, gap = self.x, self.gap(p, h00, curvature)
-        centre, least = np.searchsorted(x, 0.0), int(gap.argmin())
+        centre, low = np.searchsorted(x, 0.0), int(gap.argmin())
         around = slice(centre - 2, centre + 2)
-        a, b, c = np.polyfit(x[least - 1 : least + 2] - x[least], gap[least - 1 : least + 2], 2)
+        a, b, c = np.polyfit(x[low - 1 : low + 2] - x[low], gap[low - 1 : low + 2], 2)
         return float(np.polyfit(x[around], gap[around], 3)[-1]), float(c - b**2 / (4.0 * a))
 
 

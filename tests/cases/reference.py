@@ -56,12 +56,6 @@ TABLE_1 = {
 }
 """Operating conditions of the paper's table 1."""
 
-TABLE_2 = {257: 1.48, 513: 1.51, 1025: 1.51}
-"""mu_r/mu_s of one unpublished fractal surface by full simulation, by points per side (table 2)."""
-
-PSD_TABLE_2 = 1.53
-"""mu_r/mu_s of the same surface by the paper's prediction, on all grids (table 2)."""
-
 FIG_2 = {
     "moes_m": 1000.0,
     "moes_l": 10.0,

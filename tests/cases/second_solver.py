@@ -32,7 +32,7 @@ ENOUGH, LOAD_ENOUGH = 1e-8, 1e-9
 # Relative change of the border of a flooded contact at its end
 FLOODED_ENOUGH = 1e-6
 # The factors are made anew after more products with the matrix than this
-PATIENCE = 30
+MAX_PRODUCTS = 30
 # Columns of the full matrix that are computed at once
 BLOCK = 500
 
@@ -238,7 +238,7 @@ class SecondSolver:
             if fresh or self.factors is None:
                 self.factor(by_film, by_p, np.flatnonzero(~fixed))
             change, failed = gmres(
-                matrix, wanted, M=inverse, rtol=1e-3, atol=0.0, restart=PATIENCE, maxiter=1
+                matrix, wanted, M=inverse, rtol=1e-3, atol=0.0, restart=MAX_PRODUCTS, maxiter=1
             )
             if not failed:
                 break

@@ -198,8 +198,8 @@ def test_boundary_film_without_contact_changes_no_bit_of_friction_with_heat(solv
     """A boundary film does not switch the heat off."""
     light = HOT | case | {"contact.load": 20.0}
     without = solve(None, 65, light, words=True)
-    layer = {"lubricant.boundary_film": 1e-8, "lubricant.boundary_friction": 0.1}
-    with_film = solve(None, 65, light | layer, words=True)
+    boundary = {"lubricant.boundary_film": 1e-8, "lubricant.boundary_friction": 0.1}
+    with_film = solve(None, 65, light | boundary, words=True)
     assert with_film["contact_load_share"] in (0.0, None)
     for name in ("mu", "mu_isothermal", "mu_smooth", "mu_smooth_isothermal", *TEMPERATURES):
         assert with_film[name] == without[name], name
@@ -210,10 +210,10 @@ def test_boundary_film_without_contact_changes_no_bit_of_friction_with_heat(solv
         assert np.array_equal(ratio, without.history["heat_ratio"], equal_nan=True)
 
 
-def test_friction_of_the_layer_is_heat(solve):
+def test_friction_of_the_boundary_film_is_heat(solve):
     """The contact is dry nearly everywhere: the flash temperature agrees with Tian & Kennedy."""
-    layer = {"lubricant.boundary_film": 1.5e-6, "lubricant.boundary_friction": 0.1}
-    done = solve(None, 129, HOT | layer)
+    boundary = {"lubricant.boundary_film": 1.5e-6, "lubricant.boundary_friction": 0.1}
+    done = solve(None, 129, HOT | boundary)
     assert done["contact_load_share"] > 0.9
     # the boundary film does not depend on the temperature
     assert done["mu"] == pytest.approx(done["mu_isothermal"], rel=0.01)
@@ -221,7 +221,7 @@ def test_friction_of_the_layer_is_heat(solve):
     walls = [done[name] for name in TEMPERATURES[1:]]
     assert np.mean(walls) == pytest.approx(done["flash_temperature_K"], rel=0.05)
     # half the friction, half the heat
-    half = solve(None, 129, HOT | layer | {"lubricant.boundary_friction": 0.05})
+    half = solve(None, 129, HOT | boundary | {"lubricant.boundary_friction": 0.05})
     for name in TEMPERATURES[1:]:
         assert half[name] == pytest.approx(0.5 * done[name], rel=0.03)
 
@@ -241,16 +241,16 @@ def test_solid_contact_heats_the_film_around_it(solve):
 
 @pytest.mark.long
 @pytest.mark.parametrize(
-    ("load", "velocity", "layer", "height"),
+    ("load", "velocity", "boundary", "height"),
     [(600.0, 0.005, 4e-8, 0.05), (600.0, 0.05, 4e-8, 0.05), (100.0, 0.05, 4e-8, 0.03)],
 )
-def test_islands_at_rest_converge_on_fine_grids(solve, load, velocity, layer, height):
+def test_islands_at_rest_converge_on_fine_grids(solve, load, velocity, boundary, height):
     """Lubricant between touching nodes takes more cycles to leave than the default limit."""
     island = {
         "contact.load": load,
         "contact.mean_velocity": velocity,
         "surface.amplitude": height,
-        "lubricant.boundary_film": layer,
+        "lubricant.boundary_film": boundary,
     }
     done = solve(None, 257, STEEL | REST | island)
     assert done.converged
@@ -371,7 +371,8 @@ def test_both_drivers_give_the_same_results(solve, tmp_path):
     case = pyehl.Case().with_options(settings | {"grid.points": 65})
     pyehl.solve(case, output=tmp_path / "out", check=False)
     other = json.loads((tmp_path / "out" / "summary.json").read_text())
-    names = [name for name in done.summary if name.startswith(("contact_", "layer_", "H_", "mu"))]
+    beginnings = "contact_", "mass_defect", "H_", "mu"
+    names = [name for name in done.summary if name.startswith(beginnings)]
     assert len(names) > 10
     assert {name: other[name] for name in names} == {name: done[name] for name in names}
 

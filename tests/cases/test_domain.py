@@ -107,7 +107,7 @@ def test_pressure_spike_of_few_nodes_converges():
     assert result["restarts"] == 1
     usual = solved(case_of(200.0, 24.0, 257, **PAPER, border="zero"))
     assert usual["restarts"] == 0
-    # H_c goes with L to the power 0.6
+    # H_c is proportional to L to the power 0.6
     assert result["H_c"] / usual["H_c"] == pytest.approx((25.0 / 24.0) ** 0.6, rel=2e-3)
 
 

@@ -144,8 +144,8 @@ def test_a_slow_duty_is_a_sequence_of_steady_contacts():
 def test_reference_of_a_periodic_speed():
     """H_c of another one-dimensional solver, 264 intervals on -4 <= X <= 1.5, third period.
 
-    ubar0 (1 + 0.5 sin(2 pi T/8)): largest 0.1119 at T/8 = 0.355 to 0.36, least 0.0535 at 0.96, mean
-    0.0868 [b^2/R]. The film lags behind the speed, largest at 0.25, by about the transit b/u.
+    ubar0 (1 + 0.5 sin(2 pi T/8)): maximum 0.1119 at T/8 = 0.355 to 0.36, minimum 0.0535 at 0.96,
+    mean 0.0868 [b^2/R]. The film lags behind the speed, largest at 0.25, by about the transit b/u.
     """
     time = np.linspace(0.0, 8.0, 65)
     speed = 1.0 + 0.5 * np.sin(2.0 * np.pi * time / 8.0)
@@ -233,8 +233,8 @@ def test_a_roller_follows_the_line_in_its_middle():
     unit = float(steady.hertz_radius_m) / 2.0
     time = np.linspace(0.0, 4.0, 17) * unit
     speed = 2.0 * wave(4.0, 0.3)[1][::2]
-    rest = pyehl.solve(pyehl.Case(**ROLLER, duty={"time": time[:2], "load": [600.0] * 2}))
-    np.testing.assert_array_equal(rest.H, steady.H)
+    constant = pyehl.solve(pyehl.Case(**ROLLER, duty={"time": time[:2], "load": [600.0] * 2}))
+    np.testing.assert_array_equal(constant.H, steady.H)
     data = pyehl.solve(pyehl.Case(**ROLLER, duty={"time": time, "mean_velocity": speed}))
     assert float(data.cycles_per_step) < 15.0
     # with the load per length of the middle
@@ -334,15 +334,15 @@ def test_roughness_under_a_reversal():
     assert (data.history_H_min.values > 0.0).all()
 
 
-@pytest.mark.parametrize("least", [0.1, 0.01])
-def test_a_load_near_zero(least):
+@pytest.mark.parametrize("low", [0.1, 0.01])
+def test_a_load_near_zero(low):
     """A film remains, and the force balance holds; squeeze keeps the film above the steady one."""
     time = [0.0, 2.0, 4.0, 6.0]
-    data = run(time, load=[1.0, least, least, 1.0])
+    data = run(time, load=[1.0, low, low, 1.0])
     h = columns(data)
     assert data.attrs["status"] == "converged"
     assert np.abs(data.history_load_error).max() < 1e-5
-    assert h["load"].min() == pytest.approx(least)
+    assert h["load"].min() == pytest.approx(low)
     assert (h["H_min"] > 0.0).all()
     assert h["H_c"].max() > 1.2 * h["H_c"][0]
 

@@ -34,7 +34,7 @@ def moes(moes_m: float, moes_l: float, points: int, **grid: object) -> pyehl.Cas
     )
 
 
-def roller(points: int = 257, **options: object) -> pyehl.Case:
+def si_line(points: int = 257, **options: object) -> pyehl.Case:
     return pyehl.Case(contact=LINE, grid={"points": points}).with_options(options)
 
 
@@ -86,7 +86,7 @@ def test_same_bits(root, drivers, tmp_path):
 
 
 def test_resolved_case_is_the_same_case():
-    case = roller()
+    case = si_line()
     again = pyehl.Case.from_text(case.text)
     assert again.resolve() == case.resolve()
     assert case.resolve()["contact"]["shape"] == "line"
@@ -97,7 +97,7 @@ def test_resolved_case_is_the_same_case():
 
 
 def test_scales_and_integrals_are_per_length():
-    result = pyehl.solve(roller(1025), SLIDING)
+    result = pyehl.solve(si_line(1025), SLIDING)
     line = LineContact.from_settings(settings_of(result))
     assert float(result.hertz_radius_m) == pytest.approx(line.half_width, rel=1e-12)
     assert float(result.hertz_pressure_Pa) == pytest.approx(line.hertz_pressure, rel=1e-12)
@@ -116,22 +116,22 @@ def test_scales_and_integrals_are_per_length():
 
 
 def test_thinning_and_heat():
-    isothermal = float(pyehl.solve(roller(513), SLIDING).mu)
-    warm = pyehl.solve(roller(513), SLIDING, {"lubricant.temperature_viscosity": 0.04})
+    isothermal = float(pyehl.solve(si_line(513), SLIDING).mu)
+    warm = pyehl.solve(si_line(513), SLIDING, {"lubricant.temperature_viscosity": 0.04})
     assert 0.9 * isothermal < float(warm.mu) < 0.99 * isothermal
     assert 0.0 < float(warm.temperature_rise_wall_1_max_K) < float(warm.temperature_rise_max_K)
-    thinner = pyehl.solve(roller(513), {**SLIDING, "lubricant.flow": "consistent"})
+    thinner = pyehl.solve(si_line(513), {**SLIDING, "lubricant.flow": "consistent"})
     assert float(thinner.mu) == pytest.approx(isothermal, rel=0.01)
     # a wall at rest under an endless line has no steady temperature
     at_rest = {"contact.slide_to_roll": 2.0, "lubricant.temperature_viscosity": 0.04}
-    still = pyehl.solve(roller(513), {**SLIDING, **at_rest})
+    still = pyehl.solve(si_line(513), {**SLIDING, **at_rest})
     assert "a wall at rest under an infinite line" in still.attrs["mu_note"]
     assert math.isfinite(float(still.mu))
 
 
 def test_moving_heat_source():
     """The flash temperature is that of a fast band of heat with a semi-elliptical flux."""
-    result = pyehl.solve(roller(513), SLIDING, {"lubricant.temperature_viscosity": 0.04})
+    result = pyehl.solve(si_line(513), SLIDING, {"lubricant.temperature_viscosity": 0.04})
     line = LineContact.from_settings(settings_of(result))
     flux = float(result.mu) * line.hertz_pressure * line.sliding_speed
     x = np.linspace(-1.0, 1.0, 4001)
@@ -148,7 +148,7 @@ def test_moving_heat_source():
 
 
 def test_boundary_film():
-    case = roller(513, **{"lubricant.boundary_film": 2.5e-7, "lubricant.boundary_friction": 0.12})
+    case = si_line(513, **{"lubricant.boundary_film": 2.5e-7, "lubricant.boundary_friction": 0.12})
     result = pyehl.solve(case, SLIDING)
     assert float(result.contact_load_share) > 0.9
     assert float(result.mu) == pytest.approx(0.12, rel=0.05)
@@ -158,7 +158,7 @@ def test_boundary_film():
 
 def test_target_error():
     for target, points in ((2e-3, 1025), (1e-3, 2049)):
-        result = pyehl.solve(roller(), {"grid.target_error": target})
+        result = pyehl.solve(si_line(), {"grid.target_error": target})
         assert float(result.H_c_error_grid) <= target * float(result.H_c)
         assert int(result.points) == points
 
@@ -195,13 +195,13 @@ def test_formulas():
     solved = pyehl.solve(moes(20, 10, 1025))
     assert sheet["formulas"][0]["H_c"] == pytest.approx(float(solved.H_c), rel=0.03)
     assert sheet["formulas"][1]["H_min"] == pytest.approx(float(solved.H_min), rel=0.03)
-    text = repr(pyehl.film(roller()))
+    text = repr(pyehl.film(si_line()))
     assert "Line contact" in text
     assert "180000 N/m" in text or "1.8e+05 N/m" in text
 
 
 def test_plan_shows_m_of_line_and_point():
-    plan = pyehl.check(roller()).plan
+    plan = pyehl.check(si_line()).plan
     assert "M = 19.738, L = 9.9877" in plan
     assert "the round contact with the same speed parameter has M = 198.19" in plan
     assert "one row of nodes" in plan

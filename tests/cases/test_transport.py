@@ -44,7 +44,7 @@ def kept(angle: float) -> float:
 
 
 @pytest.mark.parametrize("wavelength", [0.5, 0.25, 0.125])
-def test_narrow_scheme_carries_a_wave_unchanged(wavelength: float):
+def test_narrow_scheme_transports_a_wave_unchanged(wavelength: float):
     _, size = amplitude("narrow", wavelength, 1.0 / 64.0)
     # Rounding, and the remainder of the start (a factor of 1/3 per step)
     assert size == pytest.approx(np.ones_like(size), abs=1e-12)

@@ -16,7 +16,6 @@ from pyehl.case import resolved_case
 from pyehl.solver import solver_on_heights
 
 SMALL = "grid.points=65"
-WHOLE_TEXT = "the text of a case"
 
 
 class Nothing:

@@ -334,8 +334,8 @@ def test_two_surfaces_have_no_contact_prediction():
     assert "single rough surface" in summary["contact_load_share_error_note"]
 
 
-@pytest.mark.parametrize("most", [np.inf, 40.0])
-def test_obstacle(most):
+@pytest.mark.parametrize("load", [np.inf, 40.0])
+def test_contact_pressures(load):
     """All conditions of the solution, with enough pressure to lift and with too little."""
     rng = np.random.default_rng(3)
     gap = rng.standard_normal((48, 48)) + 0.5
@@ -343,7 +343,7 @@ def test_obstacle(most):
     q = np.hypot(np.fft.rfftfreq(60)[:, None], np.fft.fftfreq(60)[None])
     kernel = np.divide(1.0, q, out=np.zeros_like(q), where=q > 0.0)
     compliance = Compliance(kernel, (60, 60))
-    result = contact_pressures(gap, compliance, 0.1, most)
+    result = contact_pressures(gap, compliance, 0.1, load)
     assert result is not None
     assert (result.pressure >= 0.0).all()
     assert (result.pressure[:, :4] == 0.0).all()
@@ -351,8 +351,8 @@ def test_obstacle(most):
     assert left.min() >= -2e-3
     assert np.abs(left[result.pressure > 0.0]).max() <= 1e-2
     rise = result.lift - compliance(result.pressure)
-    if np.isfinite(most):
-        assert result.pressure.sum() == pytest.approx(most)
+    if np.isfinite(load):
+        assert result.pressure.sum() == pytest.approx(load)
         assert rise.min() > 0.0
     else:
         assert np.abs(rise).max() < 1e-12

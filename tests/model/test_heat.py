@@ -71,42 +71,42 @@ def test_thermal_reduction_in_formula_prediction_and_solver():
     point, isothermal = OperatingPoint.from_settings(warm), OperatingPoint.from_settings(cold)
     oil = warm["lubricant"]
     loading = thermal_loading(oil["temperature_viscosity"], oil["viscosity"], 5.0, 0.14)
-    share = thermal_reduction(loading, isothermal.hertz_pressure / 2.26e11, 0.3)
-    assert 0.7 < share < 0.99
-    assert point.thermal_reduction == share
+    reduction = thermal_reduction(loading, isothermal.hertz_pressure / 2.26e11, 0.3)
+    assert 0.7 < reduction < 0.99
+    assert point.thermal_reduction == reduction
     lubricant = Lubricant.from_settings(warm)
     assert lubricant.viscosity == oil["viscosity"]  # no heating in the contact
     ratio = central_film(point, lubricant) / central_film(isothermal, lubricant)
-    assert ratio == pytest.approx(share, rel=1e-12)
+    assert ratio == pytest.approx(reduction, rel=1e-12)
     assert sheet(warm)["formulas"][0]["h_c_m"] == central_film(point, lubricant)
-    assert sheet(warm)["thermal_reduction"] == share
+    assert sheet(warm)["thermal_reduction"] == reduction
     films = {}
     for text in (more, ""):
         with Solver(Case.from_text(OIL.format(t=60.0, more=text))) as solver:
             assert ("shear heating" in solver.describe()) == bool(text)
             assert solver.run()
             films[text] = solver.summary
-    assert films[more]["thermal_reduction"] == pytest.approx(share, rel=1e-13)
+    assert films[more]["thermal_reduction"] == pytest.approx(reduction, rel=1e-13)
     assert films[more]["thermal_loading"] == pytest.approx(loading, rel=1e-13)
     assert films[more]["inlet_viscosity_Pa_s"] == pytest.approx(point.viscosity, rel=1e-12)
     assert films[more]["moes_m"] == pytest.approx(point.moes_m, rel=1e-12)
     assert "thermal_reduction" not in films[""]
     # the formula is within 0.8 % of the solver
-    assert films[more]["h_c_m"] / films[""]["h_c_m"] == pytest.approx(share, rel=0.01)
+    assert films[more]["h_c_m"] / films[""]["h_c_m"] == pytest.approx(reduction, rel=0.01)
 
 
 def test_inlet_viscosity():
-    for share in (1.0, 0.9, 0.3):
-        ratio = inlet_viscosity_ratio(300.0, 8.0, share)
+    for reduction in (1.0, 0.9, 0.3):
+        ratio = inlet_viscosity_ratio(300.0, 8.0, reduction)
         film = nijenbanning_venner_moes(300.0 * ratio**-0.75, 8.0 * ratio**0.25)
-        assert film == pytest.approx(share * nijenbanning_venner_moes(300.0, 8.0), rel=1e-13)
+        assert film == pytest.approx(reduction * nijenbanning_venner_moes(300.0, 8.0), rel=1e-13)
 
 
 def test_flash_temperature_limits():
     q, a, k, kappa = 1e8, 2e-4, 46.0, 1.25e-5
-    # at rest: 3 pi/8 q a/k for each surface under all the heat (the potential of a semi-ellipse)
-    rest = flash_temperature(q, a, (0.0, 0.0), (k, k), (kappa, kappa))
-    assert rest == pytest.approx(3 * math.pi / 16 * q * a / k, rel=2e-3)
+    # stationary: 3 pi/8 q a/k for each surface under all the heat (the potential of a semi-ellipse)
+    stationary = flash_temperature(q, a, (0.0, 0.0), (k, k), (kappa, kappa))
+    assert stationary == pytest.approx(3 * math.pi / 16 * q * a / k, rel=2e-3)
     # fast: heat flows straight down on the centre line
     s = np.linspace(0.0, 1.0, 201)[:, np.newaxis]
     v = (np.arange(2000) + 0.5) / 2000 * np.sqrt(1.0 + s)

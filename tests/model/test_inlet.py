@@ -57,7 +57,7 @@ def test_a_narrow_ellipse_deflects_as_a_strip_of_its_width(zone: Zone):
 def test_flattening_by_one_cell(zone: Zone, width: float):
     """The integral of K_0 over a cell near and far, of waves along and across; lines of any width.
 
-    The part behind the last node is omitted.
+    The part beyond the last node is omitted.
     """
     x = np.arange(START, END + 0.5 * SPACING, SPACING)
     qx, qy = np.array([0.0, 20.0, 90.0]), np.array([3.0, 0.0, 40.0])
@@ -79,7 +79,7 @@ def test_flattening_by_one_cell(zone: Zone, width: float):
 
 
 def test_convection_is_exact_for_polynomials_on_a_wave():
-    """For third degree inside, second degree at the last node, first degree behind the start."""
+    """For third degree inside, second degree at the last node, first degree next to the start."""
     n, h, slip = 12, 0.1, np.array([0.0, 3.0])
     x = h * np.arange(n)
     operator = convected_by(n, h, slip)

@@ -25,7 +25,7 @@ BAD = {
     "roller preload": (ROLLERS, {"roller_bearing.clearance": -5e-4}, "cannot be closed", "10 um"),
     "too loose": (BALLS, {"ball_bearing.clearance": 9e-4}, "contact angle exceeds", "at most"),
     "rings separate": (BALLS, {"ball_bearing.contact_angle": 25.0}, "rings separate", "axial_load"),
-    "angle and play": (
+    "angle and clearance": (
         BALLS,
         ANGULAR | {"ball_bearing.clearance": 1e-5},
         "is a clearance of",

@@ -141,10 +141,10 @@ def test_places_with_too_few_digits_are_no_heights(tmp_path: Path):
     """Steps of 2.44e-6 m with seven decimals are equal only to 2 %."""
     rng = np.random.default_rng(106)
     places = [f"{2.44e-6 * k:.7f}" for k in range(12)]
-    lines = [";".join(["m", *places[:9]])]
-    lines += [";".join([y, *(f"{z:.7f}" for z in rng.normal(0, 0.02, 9))]) for y in places]
+    rows = [";".join(["m", *places[:9]])]
+    rows += [";".join([y, *(f"{z:.7f}" for z in rng.normal(0, 0.02, 9))]) for y in places]
     path = tmp_path / "map.txt"
-    path.write_text("\n".join(lines))
+    path.write_text("\n".join(rows))
     with pytest.raises(InputError, match="the first column increases or decreases like an axis"):
         read_scan(path, 1e-5, 1e-5, height_unit="um")
 
@@ -152,11 +152,11 @@ def test_places_with_too_few_digits_are_no_heights(tmp_path: Path):
 def test_units_of_positions_and_heights_are_required(tmp_path: Path):
     """One unit for all three would make a map of 3 mm from one of 3 um."""
     rng = np.random.default_rng(70)
-    lines = [
+    rows = [
         f"{4.97e-4 * i} {4.97e-4 * j} {rng.normal(0, 1e-7)}" for j in range(9) for i in range(7)
     ]
     path = tmp_path / "points.txt"
-    path.write_text("\n".join(lines))
+    path.write_text("\n".join(rows))
     with pytest.raises(InputError, match=r"steps of 0\.000497, and the file does not name"):
         read_scan(path)
     assert read_scan(path, lateral_unit="mm").length_x == pytest.approx(7 * 4.97e-7)

@@ -85,7 +85,7 @@ def over_tracks(rough):
     return run(passage(rough, POINT, ROELANDS, FILM), 8)[1]
 
 
-def test_rise_over_all_tracks_is_quadratic_in_the_height(table_1):
+def test_increase_over_all_tracks_is_quadratic_in_the_height(table_1):
     """Single positions are linear, and so is one track: waves along the motion do not move."""
     z = table_1(pixels=128).heights
     means, spreads = zip(

@@ -102,7 +102,7 @@ def test_a_worker_waits_for_the_next_study_and_ends(
         return row.get("process", row.get("status"))
 
     monkeypatch.setattr(pool, "execute_all", deadly)
-    monkeypatch.setattr(pool, "KEPT", 1.0)
+    monkeypatch.setattr(pool, "IDLE_TIMEOUT", 1.0)
     first = process(0)
     assert isinstance(first, int)
     monkeypatch.chdir(tmp_path)

@@ -20,8 +20,6 @@ import pyehl
 from pyehl.schema import summary_of
 
 TABLE = Path(__file__).parent / "share.csv"
-# Seed of the contacts with which the factor of the residual was chosen
-CHOSEN = 5501
 STRICT = {"solver.accuracy": 0.002, "solver.max_cycles": 200}
 RESULTS = {
     "status": "status",
