@@ -126,6 +126,7 @@ contains
       call self%put(name, kind_note, 0.0_dp, text)
    end subroutine set_note
 
+   !> Set an item, or replace that of the same name
    subroutine put(self, name, kind, value, text)
       class(record_t), intent(inout) :: self
       character(len=*), intent(in) :: name

@@ -102,14 +102,15 @@ def equilibrium(
     unit = (sum(load) / stiffness) ** (1.0 / power) + abs(clearance)
 
     def state(radial: float, axial: float) -> tuple[Array, Array]:
-        play = radial * cosines - 0.5 * clearance
+        # radial approach of each element
+        inward = radial * cosines - 0.5 * clearance
         if math.isinf(centres):
-            approach = play * math.cos(angle) + axial * math.sin(angle)
+            approach = inward * math.cos(angle) + axial * math.sin(angle)
             return stiffness * np.maximum(approach, 0.0) ** power, np.full(count, angle)
-        across = centres + play
+        across = centres + inward
         # distance of the centres minus that without load, written without cancellation
         distance = np.hypot(axial, across)
-        approach = (axial**2 + (across + centres) * play) / (distance + centres)
+        approach = (axial**2 + (across + centres) * inward) / (distance + centres)
         return stiffness * np.maximum(approach, 0.0) ** power, np.arctan2(axial, across)
 
     def radial_force(radial: float, axial: float) -> float:

@@ -345,15 +345,15 @@ class RoughContact(ShearedContact):
         count = EDGE_ANGLES.size
         angle = np.arctan2(self.across[j], self.x[i]) * (0.5 * count / math.pi)
         before = np.floor(angle)
-        share = np.stack([1.0 - (angle - before), angle - before], axis=-1)
-        share /= self.radius[i, j][:, np.newaxis]
+        weights = np.stack([1.0 - (angle - before), angle - before], axis=-1)
+        weights /= self.radius[i, j][:, np.newaxis]
         return (
             np.asfortranarray(contact.film.T),
             centre,
             centre[0] + self.x[i] / steps[0],
             centre[1] + self.y[j] / steps[1],
             (before.astype(np.int32) % count).astype(np.int32),
-            share.T,
+            weights.T,
             np.ravel_multi_index((i, j), self.film.shape).astype(np.int32),
         )
 
@@ -364,7 +364,7 @@ class RoughContact(ShearedContact):
         step = contact.x[1] - contact.x[0]
         at = self.y[j] % strip.width * (strip.places / strip.width)
         place = np.minimum(np.floor(at).astype(np.int32), strip.places - 1)
-        share = np.stack([1.0 - (at - place), at - place]) / self.radius[i, j]
+        weights = np.stack([1.0 - (at - place), at - place]) / self.radius[i, j]
         before = place + (self.x[i] > 0.0) * (strip.places + 1)
         return (
             np.asfortranarray(np.repeat(contact.film.T, 2, axis=0)),
@@ -372,7 +372,7 @@ class RoughContact(ShearedContact):
             (self.x[i] - contact.x[0]) / step,
             np.zeros(i.size),
             before.astype(np.int32),
-            np.asfortranarray(share),
+            np.asfortranarray(weights),
             np.ravel_multi_index((i, j), self.film.shape).astype(np.int32),
         )
 

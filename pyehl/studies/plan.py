@@ -48,6 +48,7 @@ twice as many per side."""
 START = 0.7
 """Seconds to start a worker process."""
 FILM = 2e-3
+"""Seconds of a case by film formulas."""
 SMOOTH_LINE, SMOOTH_NODE = 5e-4, 5e-7
 """Seconds of a smooth contact per line and per node of its finest grid."""
 STEP_NODE, MANY_WAVES = 2.7e-7, 1.25

@@ -184,7 +184,7 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
     model = _Model(settings, law)
     limits = np.array([_limits(key) for key in keys])
     lower, upper = _to_search(keys, limits[:, 0]), _to_search(keys, limits[:, 1])
-    result = _to_search(keys, np.array([START[key] for key in keys]))
+    first = _to_search(keys, np.array([START[key] for key in keys]))
 
     def search(friction: Callable[[Array], Array], start: Array) -> OptimizeResult:
         return least_squares(
@@ -201,19 +201,18 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
     def solved(values: Array) -> Array:
         return np.array([_friction(base, law, keys, values, float(s)) for s in srr])
 
-    begin = search(lambda values: model.friction(values, srr), result)
+    begin = search(lambda values: model.friction(values, srr), first)
     settled = search(solved, begin.x)
     if not settled.success:
         raise EhlError(f"the fit of '{law}' did not settle: {settled.message}")
-    result = settled.x
-    values = _to_values(keys, result)
+    values = _to_values(keys, settled.x)
     if settled.active_mask.any():
         listed = ", ".join(f"{k} = {v:.4g}" for k, v in zip(keys, values, strict=True))
         raise EhlError(
             f"the fit of '{law}' ends at {listed}, where the range of the key ends: the data do "
             "not determine it"
         )
-    ends = intervals(keys, settled.jac, settled.fun, result)
+    ends = intervals(keys, settled.jac, settled.fun, settled.x)
     units = {key.name.partition(".")[2]: key.unit for key in KEYS.values()}
     parameters = tuple(
         Parameter(key, units[key], float(value), *end)
@@ -248,24 +247,28 @@ def _to_search(keys: tuple[str, ...], values: Array) -> Array:
     return np.where(linear, values, np.log(values))
 
 
-def _to_values(keys: tuple[str, ...], result: Array) -> Array:
+def _to_values(keys: tuple[str, ...], transformed: Array) -> Array:
+    """Undo `_to_search`."""
     linear = np.array(keys) == "carreau_exponent"
-    return np.where(linear, result, np.exp(np.where(linear, 0.0, result)))
+    return np.where(linear, transformed, np.exp(np.where(linear, 0.0, transformed)))
 
 
 def intervals(
-    keys: tuple[str, ...], jacobian: Array, residuals: Array, result: Array
+    keys: tuple[str, ...], jacobian: Array, residuals: Array, transformed: Array
 ) -> list[tuple[float, float]]:
-    """Compute the ends of the confidence intervals; infinite if the data determine nothing."""
+    """Compute the ends of the confidence intervals; infinite if the data determine nothing.
+
+    Parameters, Jacobian and residuals of the search, see `_to_search`.
+    """
     from scipy.stats import t  # noqa: PLC0415
 
-    free = residuals.size - result.size
+    free = residuals.size - transformed.size
     values, vectors = np.linalg.eigh(jacobian.T @ jacobian)
     if values[0] <= 1e-12 * max(values[-1], 1e-300):
-        return [(-np.inf, np.inf)] * result.size
+        return [(-np.inf, np.inf)] * transformed.size
     covariance = (vectors / values) @ vectors.T * float(residuals @ residuals) / free
     width = t.ppf(0.5 + 0.5 * CONFIDENCE, free) * np.sqrt(np.diag(covariance))
-    low, high = _to_values(keys, result - width), _to_values(keys, result + width)
+    low, high = (_to_values(keys, transformed + sign * width) for sign in (-1.0, 1.0))
     return [(float(a), float(b)) for a, b in zip(low, high, strict=True)]
 
 

@@ -135,7 +135,7 @@ def loads_of(data: xr.Dataset, *, body: int | None, friction: str | float) -> Lo
     times = np.zeros(0)
     if rough:
         times = data.T.values if frames else np.array([float(data.attrs.get("T", math.nan))])
-    return made_of(
+    return _assembled(
         data,
         (data.X.values, data.Y.values),
         (
@@ -150,7 +150,7 @@ def loads_of(data: xr.Dataset, *, body: int | None, friction: str | float) -> Lo
     )
 
 
-def made_of(
+def _assembled(
     data: xr.Dataset,
     axes: tuple[Array, Array],
     smooth: tuple[Array, Array],
@@ -222,12 +222,12 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
     operating = contact_of(settings)
     surfaces = tuple(
         RoughSurface(
-            _tile(data, side),
-            float(settings[f"{side}surface"]["velocity_ratio"]),
-            float(settings[f"{side}surface"]["x_start"]),
+            _tile(data, prefix),
+            float(settings[f"{prefix}surface"]["velocity_ratio"]),
+            float(settings[f"{prefix}surface"]["x_start"]),
         )
-        for side in ("", "second_")
-        if f"{side}surface_m" in data
+        for prefix in ("", "second_")
+        if f"{prefix}surface_m" in data
     )
     smooth, oil = solve_contact(settings), Lubricant.from_settings(settings)
     model = Model(surfaces, smooth, operating, oil, ModelOptions())
@@ -247,7 +247,7 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
     period = length / slowest
     step = period / POSITIONS
     if len(model.surfaces) > 1:
-        # two surfaces have no common period: a point is followed through the contact
+        # two surfaces may have no common period: a point is followed through the contact
         period = 0.0
         times = np.arange(0.0, (x[-1] - x[0]) / slowest, step)
     else:
@@ -274,7 +274,7 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
         result[inner] = smooth_film * film_left(loss / smooth_film)
         return result * operating.film_scale
 
-    return made_of(
+    return _assembled(
         data,
         (x, y),
         (pressure, film * operating.film_scale),
@@ -287,11 +287,11 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
     )
 
 
-def _tile(data: xr.Dataset, side: str) -> Topography:
+def _tile(data: xr.Dataset, prefix: str) -> Topography:
     """Return the tile of a surface from the Dataset of a prediction."""
-    axes = (data[f"{side}{name}_m"].values for name in "xy")
+    axes = (data[f"{prefix}{name}_m"].values for name in "xy")
     length, width = (axis.size * float(axis[1] - axis[0]) for axis in axes)
-    return Topography(data[f"{side}surface_m"].values, size=(length, width))
+    return Topography(data[f"{prefix}surface_m"].values, size=(length, width))
 
 
 def _contact(model: Model, waves: list[Component]) -> RoughContact:
@@ -315,5 +315,5 @@ def _with_margin(axis: Array) -> Array:
     step = float(axis[1] - axis[0])
     more = int(np.ceil(MARGIN * float(axis[-1]) / step))
     before = axis[0] - step * np.arange(more, 0, -1)
-    behind = axis[-1] + step * np.arange(1, more + 1)
-    return np.concatenate([before, axis, behind])
+    after = axis[-1] + step * np.arange(1, more + 1)
+    return np.concatenate([before, axis, after])

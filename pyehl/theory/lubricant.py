@@ -74,8 +74,8 @@ class Lubricant:
     temperature_viscosity
         beta = -(d eta/dT)/eta at ambient pressure and the temperature of the inlet [1/K].
     thermal_expansion
-        -(d rho/dT) over the density rho at 15 degC [1/K]; ``"tait"`` has
-        its own among the constants.
+        -(d rho/dT) over the density rho at 15 degC [1/K]; ``"tait"`` has its own among the
+        constants.
     range_temperature_min, range_temperature_max, range_pressure_max
         Range in which the constants of the law were measured [degC, Pa]; all 0: not known.
     constants
@@ -203,11 +203,11 @@ class Lubricant:
             return self._compiled(p, warmer)[1]
         expansion = self.thermal_expansion
         inlet = 1.0 - expansion * (self.temperature - DENSITY_TEMPERATURE)
-        thinner = 1.0 - expansion / inlet * warmer
+        expanded = 1.0 - expansion / inlet * warmer
         if self.density_law == "incompressible":
-            return np.ones_like(p) * thinner
+            return np.ones_like(p) * expanded
         return np.asarray(
-            (DENSITY_PRESSURE + DENSITY_FACTOR * p) / (DENSITY_PRESSURE + p) * thinner
+            (DENSITY_PRESSURE + DENSITY_FACTOR * p) / (DENSITY_PRESSURE + p) * expanded
         )
 
     def beyond(self, pressure: float) -> str:

@@ -49,8 +49,8 @@ def test_rigid_bodies(moes_m):
     off = off / OperatingPoint.from_moes(moes_m, 10.0).film_scale / float(reported.H_c) - 1.0
     assert off == pytest.approx({0.2: -0.01, 1.0: -0.018, 2.0: -0.076}[moes_m], abs=2e-3)
     # 140.1 (U/W)^2 R for a ball on a plane
-    least = 140.1 * (point.speed / point.load_number) ** 2
-    assert first.h_min / point.radius == pytest.approx(least, rel=1e-3)
+    expected = 140.1 * (point.speed / point.load_number) ** 2
+    assert first.h_min / point.radius == pytest.approx(expected, rel=1e-3)
 
 
 @pytest.mark.parametrize("moes_m", [20.0, 200.0, 1000.0])

@@ -239,19 +239,19 @@ def test_window_is_part_of_the_error(solve):
     assert done["mu_ratio_error"] == pytest.approx(sum(parts), rel=1e-12)
 
 
-@pytest.mark.parametrize("resting", [False, True], ids=["moves", "rests"])
-def test_dent_over_roughness(solve, resting):
+@pytest.mark.parametrize("stationary", [False, True], ids=["moving", "stationary"])
+def test_dent_over_roughness(solve, stationary):
     """A dent enters when the roughness fills the contact; the mean takes whole periods of it."""
-    srr = 2.0 if resting else 0.5
+    srr = 2.0 if stationary else 0.5
     done = solve(POINT, POINTS, surfaces_of(DENT, WAVE, slide_to_roll=srr), fields=True)
     assert done.converged
     plan = done.plan
     assert "&surface: a dent passes once" in plan
-    assert ("then that with the roughness at rest" in plan) == resting
+    assert ("then that with the roughness at rest" in plan) == stationary
     smooth = solve(POINT, POINTS, surfaces_of(DENT, {}, slide_to_roll=srr))
     assert done["H_min_rough"] < smooth["H_min_rough"]
     assert done["P_rise_max"] > smooth["P_rise_max"]
-    if resting:
+    if stationary:
         assert done["T_period"] == pytest.approx(smooth["T_period"], rel=1e-12)
     else:
         periods = done["T_period"] * 0.75
@@ -297,10 +297,10 @@ def test_amplitude_by_the_film(solve):
     si = {"contact.load": 120.0, "contact.slide_to_roll": 0.5, "time.steps": 2}
     tile = {"kind": "fractal", "pixels": 32, "rms_height": 3e-8}
     wave = {"kind": "harmonic", "wavelength": 1.0}
-    share = solve(None, POINTS, surfaces_of(tile, wave | {"amplitude_over_film": 0.2}) | si)
-    amplitude = share["second_amplitude"]
+    relative = solve(None, POINTS, surfaces_of(tile, wave | {"amplitude_over_film": 0.2}) | si)
+    amplitude = relative["second_amplitude"]
     given = solve(None, POINTS, surfaces_of(tile, wave | {"amplitude": amplitude}) | si)
     alone = solve(None, POINTS, surfaces_of(tile, {}) | si)
     assert 0.0 < given["variance_unresolved"] < alone["variance_unresolved"]
     for name in ("variance_unresolved", "variance_left_out", "surface_rms_m", "mu_ratio_min"):
-        assert share[name] == given[name], name
+        assert relative[name] == given[name], name

@@ -20,9 +20,9 @@ TABLE = Path(__file__).with_name("ten_surfaces.csv")
 FILM = 0.2333e-6
 LENGTH = 8.29e-4
 
-# Deviation of the prediction below the simulation, mean over the surfaces, as documented in
-# pyehl.prediction and the README
-DOCUMENTED = {"components": 0.128, "pattern": 0.130, "wavevector": 0.138}
+# Deviation of the model of the paper below the simulations of TABLE by the narrow scheme, mean over
+# the surfaces, by wavelength convention
+DEVIATIONS = {"components": 0.128, "pattern": 0.130, "wavevector": 0.138}
 
 
 @pytest.fixture(scope="module")
@@ -53,19 +53,19 @@ def predicted(convention):
     )
 
 
-@pytest.mark.parametrize("convention", DOCUMENTED)
+@pytest.mark.parametrize("convention", DEVIATIONS)
 def test_ten_surfaces(simulated, convention):
     """It ranks the surfaces as the simulation does, and is lower by the same fraction for all."""
     ratios = predicted(convention)
     assert np.corrcoef(ratios, simulated["narrow"])[0, 1] > 0.999
     assert np.array_equal(np.argsort(ratios), np.argsort(simulated["narrow"]))
     below = 1 - ratios / simulated["narrow"]
-    assert below.mean() == pytest.approx(DOCUMENTED[convention], abs=0.005)
+    assert below.mean() == pytest.approx(DEVIATIONS[convention], abs=0.005)
     assert np.ptp(below) < 0.01
 
 
 def test_default_convention_is_the_nearest(simulated):
-    below = {c: (1 - predicted(c) / simulated["narrow"]).mean() for c in DOCUMENTED}
+    below = {c: (1 - predicted(c) / simulated["narrow"]).mean() for c in DEVIATIONS}
     assert min(below, key=below.get) == ModelOptions().wavelength_convention
 
 
@@ -133,7 +133,7 @@ def test_film_wave_lags_the_roughness_in_the_solver(ehl, tmp_path):
         for name in ("X", "Y", "frame_T", "frame_H", "frame_P", "H_smooth", "P_smooth")
     )
     j = int(np.argmin(np.abs(y)))
-    # whole periods, behind the front
+    # whole periods, after the front has passed
     last = times[-1]
     chosen = times > last - 2 * wavelength / velocity + 1e-9
     transfer = {}

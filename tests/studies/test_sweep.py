@@ -261,7 +261,7 @@ def test_film_breakdown_counts_as_a_result(cases: Path, tmp_path: Path):
 def test_estimates_of_predictions(cases: Path):
     """Against processor seconds measured on an x86 of 2020, each within a factor of 2.5."""
     thins = {"lubricant.shear_law": "eyring"}
-    layer = thins | {"lubricant.boundary_film": 4e-8, "lubricant.boundary_friction": 0.1}
+    boundary = thins | {"lubricant.boundary_film": 4e-8, "lubricant.boundary_friction": 0.1}
     rough = {"surface.kind": "fractal"}
     for case, options, measured in (
         ("table1.nml", {}, 0.26),
@@ -269,7 +269,7 @@ def test_estimates_of_predictions(cases: Path):
         ("table1.nml", {"contact.mean_velocity": 0.05}, 1.34),
         ("table1.nml", {"surface.pixels": 512}, 0.48),
         ("table1.nml", thins, 0.64),
-        ("table1.nml", layer, 0.90),
+        ("table1.nml", boundary, 0.90),
         ("table1.nml", {"second_surface.kind": "fractal", "second_surface.seed": 2}, 1.27),
         ("ball_bearing.nml", rough, 7.8),
     ):
@@ -314,8 +314,8 @@ def test_a_sample_has_all_values_and_the_ends(cases: Path):
     assert len({p.number for p in points}) == len(points)
     ends = {(i, j, k) for i in (0, 29) for j in (0, 899) for k in (0, 6)}
     assert {p.index for p in points[:8]} == ends
-    for axis, least in enumerate((30, 500, 7)):
-        assert len({p.index[axis] for p in points}) >= least
+    for axis, count in enumerate((30, 500, 7)):
+        assert len({p.index[axis] for p in points}) >= count
     assert list(study.points())[123] == study.point(123)
 
 
