@@ -209,13 +209,13 @@ contains
    end function absolute_path
 
    !> Path of an existing file or folder without links and dots; the path itself if it does not exist
-   function real_path(path) result(real_one)
+   function real_path(path) result(resolved)
       character(len=*), intent(in) :: path
-      character(len=:), allocatable :: real_one
+      character(len=:), allocatable :: resolved
       character(kind=c_char) :: buffer(4097)
 
-      real_one = path
-      if (c_associated(posix_realpath(c_text(path), buffer))) real_one = fortran_text(buffer)
+      resolved = path
+      if (c_associated(posix_realpath(c_text(path), buffer))) resolved = fortran_text(buffer)
    end function real_path
 
    !> The folder part of a path with its '/'; empty if there is none

@@ -80,7 +80,7 @@ contains
       class(thinning_t), intent(in) :: self
       !> B >= 0 of at most `max_nodes` nodes
       real(dp), contiguous, intent(in) :: b(:)
-      !> Shapes (films), (films or more, 0:slopes)
+      !> Shapes (nodes), (nodes or more, 0:slopes)
       real(dp), contiguous, intent(out) :: t(:), f(:, 0:)
 
       if (self%law == carreau) then

@@ -34,10 +34,10 @@ module ehl_friction_results
 contains
 
    !> Friction and frictional heating of a run
-   subroutine find_friction(run, good, converged, why_none, found)
+   subroutine find_friction(run, solved, converged, why_none, found)
       type(contact_run_t), intent(in) :: run
       !> Whether the smooth contact and the run have converged
-      logical, intent(in) :: good, converged
+      logical, intent(in) :: solved, converged
       !> Why friction is not known with solid contact
       integer, intent(in) :: why_none
       type(friction_results_t), intent(out) :: found
@@ -48,7 +48,7 @@ contains
 
       known = why_none == reason_none
       rough = run%plan%surfaces%rough()
-      friction = merge(run%smooth%results(run%level())%m%friction, not_known, good .and. known)
+      friction = merge(run%smooth%results(run%level())%m%friction, not_known, solved .and. known)
       ratio = merge(not_known, 1.0_dp, rough)
       heat_ratio = not_known
       if (run%plan%heat%active .and. .not. rough) heat_ratio = run%smooth_heat%ratio()

@@ -48,11 +48,11 @@ contains
    end subroutine report_problem
 
    !> Results of a transient run, null unless it converged
-   subroutine report_transient(record, run, good, known, mean, stop_error)
+   subroutine report_transient(record, run, converged, known, mean, stop_error)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
       !> Whether the run converged, and whether friction is known
-      logical, intent(in) :: good, known
+      logical, intent(in) :: converged, known
       !> Mean friction ratio, and its error at the end of the run
       real(dp), intent(out) :: mean, stop_error
       real(dp), allocatable :: films(:), pressures(:)
@@ -64,7 +64,7 @@ contains
       ratio = not_known
       extremes = not_known
       associate (t => run%transient, surfaces => run%plan%surfaces)
-         if (good) then
+         if (converged) then
             films = run%history%column("H_min")
             pressures = run%history%column("P_max")
             extremes = [minval(films(t%mean%first_of_mean():)), maxval(pressures(t%mean%first_of_mean():))]
@@ -100,11 +100,11 @@ contains
    end subroutine report_transient
 
    !> Extremes of pressure and film over a passage, with position and time; null unless the run converged
-   subroutine report_passage(record, scales, extremes, good)
+   subroutine report_passage(record, scales, extremes, converged)
       type(record_t), intent(inout) :: record
       type(scales_t), intent(in) :: scales
       type(extremes_t), intent(in) :: extremes
-      logical, intent(in) :: good
+      logical, intent(in) :: converged
       !> Names of the extremes and suffixes of their values, in the order of extremes_t
       character(len=*), parameter :: names(4) = [character(len=11) :: "P_max_rough", "H_min_rough", "P_rise_max", &
                                                  "H_ratio_min"], parts(4) = [character(len=2) :: "", "_T", "_X", "_Y"]
@@ -112,7 +112,7 @@ contains
       integer :: i, k
 
       found = extremes%found
-      if (.not. good) found = not_known
+      if (.not. converged) found = not_known
       do k = 1, size(names)
          do i = 1, size(parts)
             call record%set(trim(names(k))//trim(parts(i)), found(i, k))
@@ -181,21 +181,21 @@ contains
    end subroutine report_waves
 
    !> Results of the contact with a stationary rough surface, null unless it converged
-   subroutine report_stationary(record, run, good, known, ratio, algebraic)
+   subroutine report_stationary(record, run, converged, known, ratio, algebraic)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
       !> Whether the run converged, and whether friction is known
-      logical, intent(in) :: good, known
+      logical, intent(in) :: converged, known
       !> Friction ratio, and its algebraic error
       real(dp), intent(out) :: ratio, algebraic
       integer :: k
 
       associate (rough => run%stationary, surfaces => run%plan%surfaces)
-         ratio = merge(rough%mu_ratio(), not_known, good .and. known)
-         algebraic = merge(2.0_dp*rough%algebraic*rough%mu_ratio(), not_known, good .and. known)
-         if (known .and. .not. good) call record%set("last_mu_ratio", rough%mu_ratio())
-         call record%set("H_c_rough", merge(rough%m%film_central, not_known, good))
-         call report_rough_extremes(record, run%plan, merge([rough%m%film_minimum, rough%m%pressure_maximum], not_known, good))
+         ratio = merge(rough%mu_ratio(), not_known, converged .and. known)
+         algebraic = merge(2.0_dp*rough%algebraic*rough%mu_ratio(), not_known, converged .and. known)
+         if (known .and. .not. converged) call record%set("last_mu_ratio", rough%mu_ratio())
+         call record%set("H_c_rough", merge(rough%m%film_central, not_known, converged))
+         call report_rough_extremes(record, run%plan, merge([rough%m%film_minimum, rough%m%pressure_maximum], not_known, converged))
          do k = 1, surfaces%count()
             call record%set(named(surfaces, k, "x_start"), surfaces%of(k)%surface%x_start)
          end do

@@ -16,10 +16,10 @@ contains
 
    !> Report null unless there is a solution. At a loaded end minimum film and maximum pressure do not converge on finer grids: they
    !> have no error.
-   subroutine report_roller(record, run, good)
+   subroutine report_roller(record, run, solved)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
-      logical, intent(in) :: good
+      logical, intent(in) :: solved
       real(dp) :: places(4), ends
       integer :: node(2), first, last
 
@@ -27,7 +27,7 @@ contains
       places = not_known
       ends = not_known
       call record%set_detail("finest_rows", real(run%plan%finest%full_ny(), dp))
-      if (good) then
+      if (solved) then
          associate (level => run%hierarchy%levels(run%level()))
             first = level%grid%first_inner()
             last = level%grid%last_inner()

@@ -23,14 +23,14 @@ module ehl_report_smooth
 
 contains
 
-   !> Results and errors of the smooth contact, null unless valid
-   subroutine report_smooth(record, plan, smooth, n, good)
+   !> Results and errors of the smooth contact, null unless it is solved
+   subroutine report_smooth(record, plan, smooth, n, solved)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
       type(smooth_contact_t), intent(in) :: smooth
       !> Level of the results
       integer, intent(in) :: n
-      logical, intent(in) :: good
+      logical, intent(in) :: solved
       character(len=5), parameter :: films(2) = [character(len=5) :: "H_c", "H_min"]
       type(contact_results_t) :: m
       real(dp) :: values(4), error(2), limit(2), domain(2)
@@ -41,7 +41,7 @@ contains
 
       m = smooth%results(n)%m
       values = [m%films(), m%pressure_maximum, m%friction]
-      if (.not. good) then
+      if (.not. solved) then
          call record%set("last_H_c last_H_min last_P_max last_F", values)
          values = not_known
       end if
@@ -49,11 +49,11 @@ contains
       error = not_known
       limit = not_known
       coarser = .false.
-      if (good .and. n > 1) coarser = smooth%results(n - 1)%solved
+      if (solved .and. n > 1) coarser = smooth%results(n - 1)%solved
       if (coarser) then
          error = stated_errors(m, smooth%results, n, plan%inlet) + smooth%results(n)%algebraic
          limit = extrapolated(smooth%results, n)
-      else if (good) then
+      else if (solved) then
          ! a single grid: a-priori errors
          error = single_grid_errors(plan%contact, plan%point, plan%finest%hx, m%films())
          if (m%touching%load_share > 0.0_dp) error = max(error, plan%inlet%film_errors(m, smooth%results(n)%mesh))
@@ -66,9 +66,9 @@ contains
          call record%set(name//"_extrapolated "//name//"_error "//name//"_error_grid "//name//"_error_domain", &
                          [limit(k), error(k) + domain(k), error(k), domain(k)])
          why = reason_none
-         if (good .and. .not. plan%domain_error(k) < 1.0_dp) why = reason_small_domain
-         if (good .and. unresolved_solid_contact(plan, smooth, n)) why = reason_inlet
-         if (k == 1 .and. .not. good) why = why_no_solution(plan%contact, plan%point, plan%finest)
+         if (solved .and. .not. plan%domain_error(k) < 1.0_dp) why = reason_small_domain
+         if (solved .and. unresolved_solid_contact(plan, smooth, n)) why = reason_inlet
+         if (k == 1 .and. .not. solved) why = why_no_solution(plan%contact, plan%point, plan%finest)
          call record%set_code(name//"_error_note", why)
       end do
       call record%set_detail("finest_points", real(plan%finest%nx, dp))
@@ -77,7 +77,7 @@ contains
       call record%set_detail("points_for_inlet", real(merge(points_for_inlet(plan%inlet, plan%finest), 0, &
                                                             plan%lubricant%boundary_film > 0.0_dp), dp))
       call record%set("error_estimate", trim(merge("coarser grids", "a priori     ", coarser)))
-      call report_limits(record, plan, smooth, n, good)
+      call report_limits(record, plan, smooth, n, solved)
       call record%set("H_c_algebraic_error H_min_algebraic_error", smooth%results(n)%algebraic)
       call record%set("load_beyond load_error", [1.0_dp - m%load/plan%contact%load, m%load_error])
       if (plan%scales%has_size()) call record%set("h_c_m h_c_error_m h_min_m h_min_error_m p_max_Pa", &
@@ -92,7 +92,7 @@ contains
          call record%set("starvation_by_formula", plan%film_starved/plan%film_flooded)
       end if
       if (plan%layer > 0.0_dp) call record%set("oil_layer oil_in oil_out oil_at_sides oil_imbalance", &
-         [plan%layer, merge([m%oil%enters, m%oil%leaves, m%oil%sides, m%oil%imbalance], spread(not_known, 1, 4), good)])
+         [plan%layer, merge([m%oil%enters, m%oil%leaves, m%oil%sides, m%oil%imbalance], spread(not_known, 1, 4), solved)])
       if (plan%passages > 1) call record%set("passages", smooth%passage)
       call record%set("cycles", smooth%results(n)%cycles)
       call record%set("total_cycles", sum(smooth%results%cycles))
@@ -102,20 +102,20 @@ contains
 
    !> Errors of P_max and F from three grids. With an unresolved pressure spike neither converges, since the viscosity in the spike
    !> determines the friction.
-   subroutine report_limits(record, plan, smooth, n, good)
+   subroutine report_limits(record, plan, smooth, n, solved)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
       type(smooth_contact_t), intent(in) :: smooth
       integer, intent(in) :: n
-      logical, intent(in) :: good
+      logical, intent(in) :: solved
       integer :: note
       real(dp) :: error(2)
       logical :: known(2)
 
       error = 0.0_dp
-      note = merge(reason_two_grids, reason_no_solution, good)
+      note = merge(reason_two_grids, reason_no_solution, solved)
       known = .false.
-      if (good .and. n > 2) then
+      if (solved .and. n > 2) then
          associate (r => smooth%results(n - 2:n))
             known = all(r%solved)
             if (known(1)) error = [limit_error(r%m%pressure_maximum), limit_error(r%m%friction)]
@@ -127,7 +127,7 @@ contains
       end if
       if (.not. plan%domain_error(1) < 1.0_dp) then
          known = .false.
-         if (good) note = reason_small_domain
+         if (solved) note = reason_small_domain
       end if
       known(2) = known(2) .and. knows_friction(plan, smooth, n)
       associate (m => smooth%results(n)%m)
@@ -140,7 +140,7 @@ contains
       call record%set("P_max_error", error(1))
       call record%set_code("P_max_error_note", merge(reason_none, note, known(1)))
       call record%set("F_error", error(2))
-      if (good .and. unresolved_solid_contact(plan, smooth, n)) note = reason_inlet
+      if (solved .and. unresolved_solid_contact(plan, smooth, n)) note = reason_inlet
       call record%set_code("F_error_note", merge(reason_none, note, known(2)))
    end subroutine report_limits
 

@@ -22,11 +22,11 @@ module ehl_report_touching
 contains
 
    !> Results of the solid contact, rough if there is roughness; null unless valid, and absent without a boundary film
-   subroutine report_touching(record, run, good, converged, why_no_grid_error)
+   subroutine report_touching(record, run, solved, converged, why_no_grid_error)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
       !> Whether the smooth contact and the run have converged
-      logical, intent(in) :: good, converged
+      logical, intent(in) :: solved, converged
       !> Why the run on the next coarser grid gives no grid error of a rough contact
       integer, intent(in) :: why_no_grid_error
       !> Numbers as in touching.f90; load share on the next coarser grid; its grid error and its error at the end of the run
@@ -52,7 +52,7 @@ contains
          ! order 1, since the edge of the solid contact lies between two nodes
          error = abs(numbers(1) - coarser)
          why = why_no_grid_error
-      else if (good .and. (converged .or. run%phase /= phase_steps)) then
+      else if (solved .and. (converged .or. run%phase /= phase_steps)) then
          numbers = touching_of(run)
          associate (results => run%smooth%results)
             stop_error = max(results(n)%share_algebraic, run%plan%inlet%residual_share_error(results(n)%m, results(n)%residual))

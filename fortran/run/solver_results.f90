@@ -30,7 +30,7 @@ submodule (ehl_solver) ehl_solver_results
 contains
 
    module procedure results
-      logical :: good, converged, rough
+      logical :: solved, converged, rough
       real(dp) :: ratio, stop_error
       integer :: why_none
       type(friction_results_t) :: friction
@@ -48,10 +48,10 @@ contains
       end if
       call record%set("converged", converged)
       ! the smooth results are final once the rough contact has started
-      good = rough .or. self%run%smooth%solved .or. self%run%outcome == outcome_target_missed
+      solved = rough .or. self%run%smooth%solved .or. self%run%outcome == outcome_target_missed
       call report_problem(record, self%run)
-      call report_smooth(record, self%run%plan, self%run%smooth, self%run%level(), good)
-      call report_roller(record, self%run, good)
+      call report_smooth(record, self%run%plan, self%run%smooth, self%run%level(), solved)
+      call report_roller(record, self%run, solved)
       ratio = not_known
       stop_error = not_known
       if (self%run%phase == phase_steps .and. self%run%plan%duty%active) then
@@ -69,8 +69,8 @@ contains
       if (self%run%plan%surfaces%rough() .and. .not. self%run%plan%duty%active) then
          call report_ratio(self, record, ratio, stop_error, why_none)
       end if
-      call report_touching(record, self%run, good, converged, why_no_grid_error(self))
-      call find_friction(self%run, good, converged, why_none, friction)
+      call report_touching(record, self%run, solved, converged, why_no_grid_error(self))
+      call find_friction(self%run, solved, converged, why_none, friction)
       call report_friction(record, self%run%plan, friction)
       call record%set("bytes", real(self%run%hierarchy%bytes(), dp) + self%run%plan%surfaces%bytes())
    end procedure results

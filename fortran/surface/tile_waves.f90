@@ -202,8 +202,7 @@ contains
    end function correlation
 
    !> The waves with k periods along X and -max_order ... max_order along Y; half of the shortest (Nyquist) wave, which belongs to
-   !> both q
-   !> and -q
+   !> both q and -q
    pure subroutine column(self, k, max_order, values)
       class(tile_waves_t), intent(in) :: self
       integer, intent(in) :: k, max_order

@@ -127,7 +127,7 @@ class Layout:
         )  # fmt: skip
         self.open_error = Div(text="", name="open_error", styles=ERROR, width=350)
         self.upload_error = Div(text="", name="upload_error", styles=ERROR, width=WIDTH)
-        self.errand = Div(text="", name="errand", width=350)
+        self.download_progress = Div(text="", name="download_progress", width=350)
         self.figure_format = Select(options=list(FORMATS), value="png", width=80)
         self.figure_width = Select(options=list(WIDTHS.items()), value="0", width=170)
         self.upload = FileInput(accept=MAPS, name="upload", title="height map")
@@ -205,7 +205,7 @@ class Layout:
         return column(
             self.case, row(copy, save), opened,
             self.open_error, self.python, copy_python,
-            row(report, figures, self.figure_format, self.figure_width), self.errand,
+            row(report, figures, self.figure_format, self.figure_width), self.download_progress,
         )  # fmt: skip
 
     def show_controls(self, values: Mapping[str, Value]) -> None:
@@ -244,4 +244,4 @@ class Layout:
 
     def fetched(self, text: str) -> None:
         """Show the progress of a download."""
-        self.errand.text = escape(text)
+        self.download_progress.text = escape(text)

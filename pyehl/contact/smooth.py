@@ -39,7 +39,7 @@ OF_SOLIDS = (
     *("thermal_conductivity", "thermal_diffusivity"),
     *("thermal_conductivity_2", "thermal_diffusivity_2"),
 )
-# (the temperature stays: a case may have it only with something that it changes)
+# (lubricant.temperature stays: it is refused where nothing depends on it)
 OF_OIL = ("thermal_conductivity",)
 OF_SHEAR = (
     *("shear_law", "flow", "eyring_stress", "limiting_stress", "limiting_coefficient"),
@@ -128,8 +128,8 @@ POINTS = 257
 inlet error of the grid (4 % at M = 1000). Finer grids up to FINEST are tried if it does not
 converge or cannot be extrapolated: at high loads (M above about 2000) the inlet is steep."""
 CYCLES = 100
-"""Fewest `max_cycles` with a boundary film: of the 112 contacts of docs/evidence/inlet/share.csv
-that converge 13 take more than 30 cycles, and none more than 90."""
+"""Minimum of `max_cycles` with a boundary film: of the 112 contacts of
+docs/evidence/inlet/share.csv that converge 13 take more than 30 cycles, and none more than 90."""
 TOUCHES = 1.2
 """Film over boundary film above which solid contact is excluded: at this ratio the contacts of
 docs/evidence/inlet, on 257 x 257 nodes, have a load share of at most 2.4e-4, and 0 if that grid

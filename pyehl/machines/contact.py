@@ -122,9 +122,9 @@ class Contact:
         return machine.case_text(_rounded(contact), self.place, may_be_light=self.may_be_light)
 
 
-def _rounded(values: Mapping[str, float]) -> dict[str, float]:
-    """Round values, so that mirrored elements have the same case."""
-    return {name: float(f"{value:.10g}") for name, value in values.items()}
+def _rounded(keys: Mapping[str, float]) -> dict[str, float]:
+    """Round the values of keys, so that mirrored elements have the same case."""
+    return {name: float(f"{value:.10g}") for name, value in keys.items()}
 
 
 @dataclass(frozen=True, slots=True)

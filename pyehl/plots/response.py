@@ -26,8 +26,8 @@ def response_figure(
     axes: Any = figure.subplots(1, 2, sharex=True)
     colours: Any = {"cmap": SEQUENTIAL, "vmin": 0.0, "vmax": 90.0}
     for ax, name in zip(axes, ("amplitude", "lag"), strict=True):
-        places = waves[name] if name == "amplitude" else _turned(waves, lines)
-        dots = ax.scatter(waves["nabla_2"], places, c=waves["direction"], s=8, **colours)
+        measured = waves[name] if name == "amplitude" else _turned(waves, lines)
+        dots = ax.scatter(waves["nabla_2"], measured, c=waves["direction"], s=8, **colours)
         for direction, (nabla, t) in lines.items():
             values = np.abs(t) if name == "amplitude" else _lag(t)
             colour = dots.cmap(dots.norm(direction))

@@ -47,7 +47,7 @@ NEWTONIAN_FLOW_NOTE = (
 STRESS_NOTE = "ratio of friction coefficients at the given slide-to-roll ratio"
 
 
-# Why the friction of a partial film is not known
+# Why solid contact, or the friction of a partial film, is not known
 BETWEEN = "the film ends between the positions at which contact is searched for"
 NO_FRICTION = (
     "the bodies touch, and the friction there is not known: lubricant.boundary_friction and "

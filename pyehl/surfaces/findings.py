@@ -65,8 +65,9 @@ def line_steps(z: Array, axis: int, parts: int = 1) -> tuple[Array, float]:
 
 
 STEP, BROAD, ABOVE, FEW = 12.0, 6.0, 3.0, 4
-"""Minimum height of a stitching step over the median step between two lines, over the rms of these
-steps without the `FEW` largest, and over the rms step between two points."""
+"""Minimum height of a stitching step over the standard deviation of the steps between lines (from
+their median deviation), over the rms of these steps without the `FEW` largest, and over the rms
+step between two points."""
 PARTS = 4
 """Parts of a line that may each have a stitching step: stitched fields meet in corners."""
 DUST = 8.0

@@ -48,7 +48,7 @@ const roots = Bokeh.index.roots || Object.values(Bokeh.index);
 let found = null;
 for (const view of roots) found = found || find(view, arguments[0]);
 """
-PATIENCE = 120.0
+TIMEOUT = 120.0
 
 
 class Served:
@@ -71,13 +71,13 @@ class Served:
 
         self._thread = threading.Thread(target=run)
         self._thread.start()
-        assert ready.wait(PATIENCE)
+        assert ready.wait(TIMEOUT)
         self.port = self._server.port
         self.address = f"http://127.0.0.1:{self.port}/"
 
     def close(self) -> None:
         self._server.io_loop.add_callback(self._server.io_loop.stop)
-        self._thread.join(PATIENCE)
+        self._thread.join(TIMEOUT)
         for page in self.pages:
             page.close()
 
@@ -94,8 +94,8 @@ class Tab:
     def run(self, script: str, *arguments: object) -> Any:
         return self.driver.execute_script(script, *arguments)
 
-    def until(self, holds: Callable[[], Any], patience: float = PATIENCE) -> Any:
-        end = time.monotonic() + patience
+    def until(self, holds: Callable[[], Any], timeout: float = TIMEOUT) -> Any:
+        end = time.monotonic() + timeout
         while not (result := holds()):
             assert time.monotonic() < end, "the page does not come to it"
             time.sleep(0.02)

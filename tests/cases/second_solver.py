@@ -28,9 +28,9 @@ VELOCITY = 1.01
 # The roughness has no effect until its front plus half a wavelength is at this X
 X_MATTERS = -1.25
 # Residual (rms) and error of the load of a solution
-ENOUGH, LOAD_ENOUGH = 1e-8, 1e-9
-# Relative change of the border of a flooded contact at its end
-FLOODED_ENOUGH = 1e-6
+TOLERANCE, LOAD_TOLERANCE = 1e-8, 1e-9
+# Relative change of the border pressure of a flooded contact that ends its iteration
+BORDER_TOLERANCE = 1e-6
 # The factors are made anew after more products with the matrix than this
 MAX_PRODUCTS = 30
 # Columns of the full matrix that are computed at once
@@ -128,9 +128,9 @@ class SecondSolver:
         """Matrix that takes values from nodes shifted by (di, dj); 0 from outside."""
         i, j = np.meshgrid(np.arange(self.points), np.arange(self.rows), indexing="ij")
         to = (i + di, abs(j + dj))
-        good = ((to[0] >= 0) & (to[0] < self.points) & (to[1] < self.rows)).ravel(order="F")
-        row = np.flatnonzero(good)
-        column = (to[0] + self.points * to[1]).ravel(order="F")[good]
+        inside = ((to[0] >= 0) & (to[0] < self.points) & (to[1] < self.rows)).ravel(order="F")
+        row = np.flatnonzero(inside)
+        column = (to[0] + self.points * to[1]).ravel(order="F")[inside]
         shape = (self.x.size, self.x.size)
         return sparse.csr_array((np.ones(row.size), (row, column)), shape)
 
@@ -195,13 +195,13 @@ class SecondSolver:
             by_p = by_p - slope @ sparse.diags_array(eps * (d_rho / rho - d_eta))
             diagonal = by_p.diagonal() + by_film.multiply(self.near).sum(axis=1)
             fixed = ~self.inside | (p - residual / np.abs(diagonal) <= 0.0)
-            rest = np.append(
+            residuals = np.append(
                 np.where(fixed, p - self.border, residual), self.weight @ p - self.load
             )
-            error = np.sqrt(np.mean(rest[:n] ** 2))
-            if error < ENOUGH and abs(rest[n]) < LOAD_ENOUGH:
+            error = np.sqrt(np.mean(residuals[:n] ** 2))
+            if error < TOLERANCE and abs(residuals[n]) < LOAD_TOLERANCE:
                 return p, h00, film
-            change = self.newton_step(by_film, by_p, fixed, rest, diagonal)
+            change = self.newton_step(by_film, by_p, fixed, residuals, diagonal)
             damp = min(1.0, 0.3 / np.abs(change[:n]).max())
             p, h00 = np.maximum(0.0, p + damp * change[:n]), h00 + damp * change[n]
         raise NotSolvedError(f"Newton's method does not converge: residual {error}")
@@ -211,15 +211,17 @@ class SecondSolver:
         by_film: sparse.sparray,
         by_p: sparse.sparray,
         fixed: NDArray[np.bool_],
-        rest: Array,
+        residuals: Array,
         diagonal: Array,
     ) -> Array:
-        """Give the changes of P and of H00; the pressure of fixed nodes becomes 0."""
+        """Give the changes of P and H00; fixed nodes get the border pressure, which is 0 inside."""
         n = fixed.size
         # scales all equations to pressure
         free = sparse.diags_array(np.where(fixed, 0.0, 1.0 / diagonal))
         by_film, by_p = (free @ by_film).tocsr(), (free @ by_p).tocsr()
-        wanted = np.append(np.where(fixed, -rest[:n], -rest[:n] / diagonal), -rest[n])
+        wanted = np.append(
+            np.where(fixed, -residuals[:n], -residuals[:n] / diagonal), -residuals[n]
+        )
 
         def product(v: Array) -> Array:
             film = self.deflect(v[:n]) + v[n]
@@ -282,7 +284,7 @@ class SecondSolver:
             self.border = np.where(self.inside, 0.0, self.speed * pressure)
             self.load = 2.0 * np.pi / 3.0 - self.speed * beyond
             p, h00, film = self.solve(p, h00, shape, self.upstream(), np.zeros_like(p))
-            if np.abs(self.border - before).max() < FLOODED_ENOUGH * self.border.max():
+            if np.abs(self.border - before).max() < BORDER_TOLERANCE * self.border.max():
                 break
         return p, h00, film
 

@@ -10,8 +10,7 @@ import pytest
 
 import pyehl
 
-# Parts of the names of numbers that depend on the threads and their workspace; seconds are no
-# results either
+# Numbers that depend on the threads and their workspace; seconds are no results either
 NOT_RESULTS = {"threads", "bytes"}
 SIZE = {"surface.length_x": 8.29e-4, "surface.length_y": 8.29e-4}
 HARMONIC = {
@@ -96,7 +95,7 @@ def test_drivers(drivers, tmp_path: Path, case: dict[str, object]):
     # Python adds sentences, and how it prepared a map
     assert two["files"].remove("plan.txt") is None
     two = {name: two[name] for name in one}
-    # the summary of pyehl has the meaning of each key
+    # the values: `ehl` and `pyehl` write different comments
     cases = [pyehl.Case(tmp_path / name / "case.nml") for name in ("ehl", "pyehl")]
     assert cases[0] == cases[1]
     assert one | {"case.nml": ""} == two | {"case.nml": ""}

@@ -58,7 +58,7 @@ def test_rough_dry_limit_partial_contact(solve, root, dry):
 
 
 @pytest.mark.parametrize(
-    ("name", "points", "velocity", "layer", "hardness", "case"),
+    ("name", "points", "velocity", "boundary", "hardness", "case"),
     [
         ("flattened", 129, 0.02, 2e-8, 1.15 * HERTZ, {}),
         ("with valleys", 129, 0.005, 1e-8, 1.35 * HERTZ, VALLEYS),
@@ -71,14 +71,16 @@ def test_rough_dry_limit_partial_contact(solve, root, dry):
     ],
     ids=["flat", "valleys", "fine, flat", "fine, valleys", "ellipse", "two surfaces"],
 )
-def test_hardness_dry_limit(solve, root, dry, name, points, velocity, layer, hardness, case):
+def test_hardness_dry_limit(solve, root, dry, name, points, velocity, boundary, hardness, case):
     """Pressure and load share at the pressure limit, as by a dry solver with such a limit."""
-    rest = {"contact.mean_velocity": velocity, "lubricant.boundary_film": layer}
+    rest = {"contact.mean_velocity": velocity, "lubricant.boundary_film": boundary}
     rest |= {"contact.hardness": hardness}
     done = solve(None, points, of_shape(STEEL | REST | rest | case), fields=True, words=True)
     assert done.converged
     limit = hardness / done["hertz_pressure_Pa"]
-    hard, elastic = (dry.dry_pressure(done.summary, done.field, most) for most in (limit, None))
+    hard, elastic = (
+        dry.dry_pressure(done.summary, done.field, max_pressure) for max_pressure in (limit, None)
+    )
     pressure = done.field("P")
     assert pressure.max() == pytest.approx(limit, rel=1e-9)
     share = hard[hard >= limit * (1.0 - 1e-9)].sum() / hard.sum()

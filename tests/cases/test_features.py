@@ -118,10 +118,10 @@ def test_small_features_are_linear(solve: Any):
 
     small, twice, bump = change("dent", 1e-3), change("dent", 2e-3), change("bump", 1e-3)
     for one, two, other in zip(small, twice, bump, strict=True):
-        most = np.abs(one).max()
+        maximum = np.abs(one).max()
         # the second order in 1e-3/H_c
-        assert np.abs(two - 2.0 * one).max() < 0.05 * most
-        assert np.abs(other + one).max() < 0.05 * most
+        assert np.abs(two - 2.0 * one).max() < 0.05 * maximum
+        assert np.abs(other + one).max() < 0.05 * maximum
     keys = DENT | TIGHT | {"surface.amplitude": 1e-7}
     none = solve(POINT, 65, keys)
     assert none.converged
@@ -178,8 +178,8 @@ def test_film_moves_with_the_mean_velocity(ratio: float, solve: Any):
     change = frames[:, row, :] - done.field("H_smooth")[:, row, None]
     inside = np.abs(x) < 0.75
     # where the film is thickest, while that is well inside the contact
-    most, place = change[inside].max(axis=0), x[inside][change[inside].argmax(axis=0)]
-    here = (most > 0.8 * most.max()) & (np.abs(place) < 0.7)
+    maximum, place = change[inside].max(axis=0), x[inside][change[inside].argmax(axis=0)]
+    here = (maximum > 0.8 * maximum.max()) & (np.abs(place) < 0.7)
     assert here.sum() >= 15
     speed = np.polyfit(times[here], place[here], 1)[0]
     # a mesh size over the distance of 1.4 a

@@ -208,8 +208,8 @@ def test_second_solver_has_the_same_response():
     node = int(np.argmin(np.hypot(second.x, second.y)))
     # the front has left the domain; the last period counts
     steps, period = 94, round(wavelength / VELOCITY / second.h)
-    first = islice(second.steps(Wave(amplitude, wavelength, wavelength)), steps)
-    film = np.array([values[node] for _, values in first])[-period:]
+    states = islice(second.steps(Wave(amplitude, wavelength, wavelength)), steps)
+    film = np.array([values[node] for _, values in states])[-period:]
     first = int((X_MATTERS - 0.5 * wavelength - START) / VELOCITY / second.h) + 1
     time = (first + np.arange(steps))[-period:] * second.h
     turn = waves.kx[0] * (VELOCITY * time + START)

@@ -113,7 +113,7 @@ def test_map_at_rest_equals_wave_at_rest(solve, tmp_path):
 
 
 def test_roughness_higher_than_the_film_is_added_in_parts(solve):
-    """Waves that would pierce the film are added in steps; failure to converge is reported."""
+    """Waves that would pierce the film are added in parts, and the last one converges."""
     done = solve(POINT, POINTS, REST | {"surface.amplitude": 0.0712})
     assert done.converged
     assert done["rough_parts"] > 1

@@ -104,7 +104,7 @@ def test_passages():
     films = [np.asarray(result.history_H_c)[of == k][-1] for k in (1, 2, 3)]
     layers = [np.asarray(result.history_oil_layer)[of == k][-1] for k in (1, 2, 3)]
     assert films[0] > films[1] > films[2]
-    # the arriving oil is the film of the position before it
+    # the layer that arrives is the film of the passage before
     assert layers[1:] == pytest.approx([DENSITY * film for film in films[:2]], rel=0.02)
     once = solve(film_hertz=0.1, passages=3, replenishment=1.0)
     assert int(once.passages) == 2

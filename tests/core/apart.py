@@ -30,8 +30,8 @@ def assert_apart(figure, name):
     """No two texts overlap, and all are inside the picture."""
     result = written(figure)
     assert len(result) > 5, name
-    for (one, box), (other, next_to) in itertools.combinations(result, 2):
-        assert not box.shrunk(0.98, 0.8).overlaps(next_to.shrunk(0.98, 0.8)), (name, one, other)
+    for (one, box), (other, other_box) in itertools.combinations(result, 2):
+        assert not box.shrunk(0.98, 0.8).overlaps(other_box.shrunk(0.98, 0.8)), (name, one, other)
     for text, box in result:
         inside = figure.bbox.x0 - 1 <= box.x0 and box.x1 <= figure.bbox.x1 + 1
         assert inside, (name, text)

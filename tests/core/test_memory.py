@@ -108,7 +108,7 @@ def test_the_message_names_the_key_that_needs_memory(cases: Path, tmp_path: Path
     large = ("surface.kind=harmonic", "output.frame_interval=1e-12", "time.steps=10000000")
     with pytest.raises(NoMemoryError, match=r"grid.points = 4097 .*frame_interval = 1e-12 needs"):
         pyehl.Solver(cases / "quick.nml", "grid.points=4097", *large)
-    # 8192 pixels need more than this, and no run uses them
+    # 8192 pixels need more memory than the process may have
     for words in (("check",), ("run", "-o", "out"), ("predict", "-o", "out")):
         done = limited(
             tmp_path,
@@ -133,7 +133,7 @@ def test_wave_that_is_too_long_to_sample(cases: Path):
 
 @pytest.mark.parametrize("interval", ["1e-12", "1e-308", "0.01"])
 def test_interval_below_a_step_keeps_every_step(tmp_path: Path, interval: str):
-    """The quotient of the times exceeds every integer."""
+    """Also where the time over the interval exceeds every integer."""
     case = pyehl.Case.from_text(WAVE, f"output.frame_interval={interval}")
     ds = pyehl.solve(case, check=False, output=tmp_path / "out")
     assert ds.frame_P.shape[2] == 5

@@ -90,16 +90,16 @@ def test_limits_of_a_result(root):
     assert flooded not in " ".join(limits(starved, solved))
     assert "starved" in " ".join(limits(starved, solved))
     # the page never excludes contact at a boundary film
-    layer = pyehl.Case(root / "cases/table1.nml", "lubricant.boundary_film=4e-8").resolve()
+    boundary = pyehl.Case(root / "cases/table1.nml", "lubricant.boundary_film=4e-8").resolve()
     touching = {"kind": "prediction", "status": "predicted", "contact_load_share": 0.1423}
     for groups, summary, words in (
         (
-            layer,
+            boundary,
             touching,
             "Mixed lubrication: 14 % of the load is on the boundary film of 40",
         ),
-        (layer, touching | {"contact_load_share": 0.0}, "There is no solid contact"),
-        (layer, touching | {"contact_load_share": None}, "Whether there is solid contact"),
+        (boundary, touching | {"contact_load_share": 0.0}, "There is no solid contact"),
+        (boundary, touching | {"contact_load_share": None}, "Whether there is solid contact"),
         (thinning, {"kind": "prediction", "status": "film breakdown"}, "The film ends"),
         (thinning, {"kind": "solution", "status": "converged"}, "there is no mixed lubrication"),
     ):

@@ -43,7 +43,7 @@ def results(folder: Path) -> tuple[dict[str, Any], dict[str, bytes]]:
         free |= {"mu_ratio_unresolved", "mu_ratio_error_left_out"}
         free |= {"mu_ratio_error", "mu_ratio_error_note", "assessment"}
     summary = {name: value for name, value in summary.items() if name not in free}
-    # the summary of pyehl has the meanings of the keys
+    # the values: `ehl` and `pyehl` write different comments
     case = Case(folder / "case.nml").resolve()
     for group, key in (
         ("solver", "threads"),

@@ -10,7 +10,7 @@ from test_resume import FRACTAL, WAVE, stop_after_steps
 
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
 @pytest.mark.parametrize(
-    ("extra", "options", "assessment", "states"),
+    ("extra", "options", "assessment", "proposal"),
     [
         (
             "amplitude_over_film = 0.2",
@@ -27,14 +27,14 @@ from test_resume import FRACTAL, WAVE, stop_after_steps
     ],
 )
 def test_resumption_is_proposed_only_if_it_may_end_otherwise(
-    drive, tmp_path: Path, driver: str, extra: str, options: str, assessment: str, states: str
+    drive, tmp_path: Path, driver: str, extra: str, options: str, assessment: str, proposal: str
 ):
     (tmp_path / "case.nml").write_text(WAVE.format(points=65, extra=f"wavelength = 1.0 {extra}"))
     done = drive(driver, "case.nml", "-o", "out", "--set", options)
     assert done.returncode == 1
     *_, last = done.stdout.splitlines()
-    assert last.endswith("--resume out") == bool(states)
-    assert states in last
+    assert last.endswith("--resume out") == bool(proposal)
+    assert proposal in last
     if driver == "pyehl":
         assert f"assessment {assessment}" in done.stdout
 

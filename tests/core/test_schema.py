@@ -117,8 +117,8 @@ def test_predictions():
         {*brief(text), "files"}  # the folder lists them
         for text in (rough, ellipse + rough, rough + rough.replace("surface", "second_surface"))
     )
-    layer = "&contact load = 20.0 /\n&lubricant boundary_film = 1e-9 /\n"
-    held = {*brief(layer + rough)}
+    boundary = "&contact load = 20.0 /\n&lubricant boundary_film = 1e-9 /\n"
+    held = {*brief(boundary + rough)}
     line = "&contact shape = 'line' load_per_length = 1e5 radius = 0.01 mean_velocity = 0.5 /\n"
     strip = {*brief(line + rough)}
     assert alone | oval | both | held | strip == names("prediction")

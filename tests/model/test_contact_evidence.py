@@ -52,7 +52,7 @@ def test_rough_balls_at_vanishing_speed(dry, surface):
         assert result[name] == pytest.approx(row[name], rel=1e-3), name
 
 
-def test_the_layer_is_thicker_than_the_film_of_the_inlet(text: str, dry):
+def test_the_boundary_film_is_thicker_than_the_film_of_the_inlet(text: str, dry):
     _, film = formula_film(dry.pyehl.Case.from_text(dry.CASE).resolve())
     assert 2e-8 > 5.0 * film
     assert "five times the film from the formula" in text

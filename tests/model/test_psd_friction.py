@@ -176,8 +176,8 @@ def test_load_balance_follows_hertz():
     # cos(k x) cos(k y), averaged over a circle about its crest
     r = np.linspace(0.0, 1.0, 4001) * POINT.hertz_radius
     bump = j0(math.sqrt(2) * 2 * math.pi / side * r)
-    carried = 2 * math.pi * np.trapezoid(dp * bump * r, r) / POINT.load
-    lighter = OperatingPoint(load=POINT.load * (1 - carried))
+    load_share = 2 * math.pi * np.trapezoid(dp * bump * r, r) / POINT.load
+    lighter = OperatingPoint(load=POINT.load * (1 - load_share))
 
     def friction(point, extra, film):
         inner = np.maximum(0.0, 1 - (r / point.hertz_radius) ** 2)
@@ -185,7 +185,7 @@ def test_load_balance_follows_hertz():
         return np.trapezoid(ROELANDS.viscosity_ratio(p) / film * r, r)
 
     expected = friction(lighter, dp * bump, FILM - ad * bump) / friction(POINT, 0.0, FILM)
-    assert carried > 0.02
+    assert load_share > 0.02
     assert held.passage[0] == pytest.approx(expected, rel=5e-4)
 
 

@@ -79,7 +79,7 @@ CARREAU = THINS | {
     "lubricant.carreau_exponent": 0.5,
 }
 HEATED = SHEET | {"lubricant.thermal_reduction": True, "contact.slide_to_roll": 0.5}
-LAYER = {"lubricant.boundary_film": 1e-9}
+BOUNDARY_FILM = {"lubricant.boundary_film": 1e-9}
 
 # By key: its value, and other keys that it requires
 VALUES: dict[str, tuple[Any, Mapping[str, Any]]] = {
@@ -92,7 +92,7 @@ VALUES: dict[str, tuple[Any, Mapping[str, Any]]] = {
     "contact.radius_x": (0.01, {"contact.radius_y": 0.012}),
     "contact.radius_y": (0.011, {"contact.radius_x": 0.01}),
     "contact.reduced_modulus": (1.5e11, SI),
-    "contact.hardness": (9e9, SI | LAYER),
+    "contact.hardness": (9e9, SI | BOUNDARY_FILM),
     "contact.angle": (20.0, {"contact.radius_x": 0.01, "contact.radius_y": 0.012}),
     "contact.slide_to_roll": (0.6, SI | THINS),
     "contact.rough_surface": (2, SI | THINS),
@@ -129,7 +129,7 @@ VALUES: dict[str, tuple[Any, Mapping[str, Any]]] = {
     "lubricant.carreau_stress": (1e6, SI | CARREAU),
     "lubricant.carreau_exponent": (0.6, SI | CARREAU),
     "lubricant.boundary_film": (2e-9, SI),
-    "lubricant.boundary_friction": (0.1, SI | LAYER),
+    "lubricant.boundary_friction": (0.1, SI | BOUNDARY_FILM),
     "lubricant.temperature": (80.0, SI | SHEET),
     "lubricant.kinematic_viscosity_40": (46.0, SI | SHEET),
     "lubricant.kinematic_viscosity_100": (6.8, SI | SHEET),
@@ -199,8 +199,8 @@ SMOOTH = ("inlet.film", "inlet.film_hertz", "inlet.passages", "inlet.replenishme
 # A table of viscosities and one of a profile are files
 TABLE, PROFILE = "lubricant.table", ("contact.profile_file", "contact.profile_file_2")
 ROUGH = {"surface.kind": "harmonic", "surface.amplitude_over_film": 0.1}
-# Groups that are no part of a smooth contact (although a velocity ratio is a slide-to-roll ratio),
-# and the duty, which predictions refuse
+# Groups that are no part of a smooth contact (although slide_to_roll follows from a velocity
+# ratio), and the duty, which predictions refuse
 OTHERS = ("surface", "second_surface", "time", "duty", "psd", "output", *MACHINES)
 
 
@@ -216,7 +216,7 @@ def test_every_key_has_a_value():
 
 @pytest.mark.parametrize("key", END)
 def test_commands_without_rollers_refuse_them(key: str):
-    """They are not solved as points: by prediction, `fit-lubricant` and the app."""
+    """Predictions, film formulas, `fit-lubricant` and the app take none for a point contact."""
     roller = {
         "contact.shape": "roller",
         "contact.load": 2000.0,
@@ -242,7 +242,7 @@ def test_a_layer_of_oil_is_refused_with_roughness():
 
 @pytest.mark.parametrize("key", LINE)
 def test_commands_without_line_contacts_refuse_them(key: str):
-    """They are not solved as points: by `fit-lubricant` and the app."""
+    """`fit-lubricant` and the app take none for a point contact."""
     case = pyehl.Case.from_text("", {"contact.shape": "line"} | LINE[key] | ROUGH | POINTS)
     for asked in (
         lambda: OperatingPoint.from_settings(case.resolve()),  # first of a fit
