@@ -61,8 +61,8 @@ def scheme(driver: webdriver.Chrome, name: str) -> None:
     driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [feature]})
 
 
-def faults(site: Path, pictures: Path | None, patience: float = 30.0) -> list[str]:
-    """List all faults; the search may take `patience` seconds."""
+def faults(site: Path, pictures: Path | None, timeout: float = 30.0) -> list[str]:
+    """List all faults; the search may take `timeout` seconds."""
     handler = functools.partial(Quiet, directory=str(site))
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
     threading.Thread(target=server.serve_forever, daemon=True).start()
@@ -79,7 +79,7 @@ def faults(site: Path, pictures: Path | None, patience: float = 30.0) -> list[st
                 result.append(f"{name}: {wide} px wide on a phone")
             result += [f"{name}: cut: {part}" for part in cut]
         driver.get(f"{home}/search.html?q={QUESTION.replace(' ', '+')}")
-        until = time.monotonic() + patience
+        until = time.monotonic() + timeout
         results = ""
         while time.monotonic() < until and "htm" not in results:
             time.sleep(0.2)

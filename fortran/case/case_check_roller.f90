@@ -63,10 +63,10 @@ contains
 
    contains
 
-      subroutine require(name, good, expected)
+      subroutine require(name, fulfilled, expected)
          character(len=*), intent(in) :: name, expected
-         logical, intent(in) :: good
-         if (.not. good) call source%refuse(name, name//" with "//shape, expected, status)
+         logical, intent(in) :: fulfilled
+         if (.not. fulfilled) call source%refuse(name, name//" with "//shape, expected, status)
       end subroutine require
    end subroutine check_roller
 
@@ -152,13 +152,13 @@ contains
       character(len=*), intent(in) :: ending
       real(dp), intent(in) :: length
       type(status_t), intent(inout) :: status
-      logical :: good
+      logical :: valid
 
-      good = size(one%y) >= 2 .and. size(one%y) == size(one%table)
-      if (good) good = all(one%y(2:) > one%y(:size(one%y) - 1))
+      valid = size(one%y) >= 2 .and. size(one%y) == size(one%table)
+      if (valid) valid = all(one%y(2:) > one%y(:size(one%y) - 1))
       ! rounding errors of the ends are allowed
-      if (good) good = one%y(1) <= -0.499999_dp*length .and. one%y(size(one%y)) >= 0.499999_dp*length
-      if (.not. good) call source%refuse("contact.profile_y"//ending, "contact.profile_y"//ending// &
+      if (valid) valid = one%y(1) <= -0.499999_dp*length .and. one%y(size(one%y)) >= 0.499999_dp*length
+      if (.not. valid) call source%refuse("contact.profile_y"//ending, "contact.profile_y"//ending// &
                                          " does not cover the roller", &
                                          "positions that increase from -length/2 to length/2 [m], with a drop each", status)
    end subroutine check_table

@@ -83,7 +83,7 @@ contains
          character(len=*), intent(in) :: one, rival
          logical, intent(in) :: has_one
          if (has_one .and. source%given(group//"."//rival)) then
-           call source%contradict(group//"."//one, group//"."//rival, "one of the two", status)
+            call source%contradict(group//"."//one, group//"."//rival, "one of the two", status)
          end if
       end subroutine exclude
    end subroutine check_surface

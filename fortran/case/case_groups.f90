@@ -19,14 +19,14 @@ module ehl_case_groups
 
 contains
 
-   !> Read the text of a group, `&group ... /`; `good` is false if the runtime refuses it
-   subroutine read_group(group, text, input, good)
+   !> Read the text of a group, `&group ... /`; `accepted` is false if the runtime refuses it
+   subroutine read_group(group, text, input, accepted)
       character(len=*), intent(in) :: group, text
       type(case_t), intent(inout) :: input
-      logical, intent(out) :: good
+      logical, intent(out) :: accepted
       character(len=line_length) :: lines(0)
 
-      call pass_group(group, input, text, lines, good)
+      call pass_group(group, input, text, lines, accepted)
    end subroutine read_group
 
    !> Keys and values of a group, in order; the value of a list is ''
@@ -36,12 +36,12 @@ contains
       character(len=name_length), allocatable, intent(out) :: keys(:)
       character(len=path_length + 2), allocatable, intent(out) :: values(:)
       character(len=line_length), allocatable :: lines(:)
-      logical :: good
+      logical :: accepted
       integer :: k, equals
 
       allocate (lines(max_lines))
       lines = ""
-      call pass_group(group, input, "", lines, good)
+      call pass_group(group, input, "", lines, accepted)
       lines = pack(lines, index(lines, "=") > 0)
       allocate (keys(size(lines)), values(size(lines)))
       do k = 1, size(lines)
@@ -69,46 +69,46 @@ contains
    end function plain
 
    !> Read a group if its text is not empty, otherwise write it
-   subroutine pass_group(group, input, text, lines, good)
+   subroutine pass_group(group, input, text, lines, accepted)
       character(len=*), intent(in) :: group, text
       type(case_t), intent(inout) :: input
       character(len=line_length), intent(inout) :: lines(:)
-      logical, intent(out) :: good
+      logical, intent(out) :: accepted
 
       select case (group)
       case ("contact")
-         call contact_group(input%contact, text, lines, good)
+         call contact_group(input%contact, text, lines, accepted)
       case ("bodies")
-         call bodies_group(input%bodies, text, lines, good)
+         call bodies_group(input%bodies, text, lines, accepted)
       case ("lubricant")
-         call lubricant_group(input%lubricant, text, lines, good)
+         call lubricant_group(input%lubricant, text, lines, accepted)
       case ("inlet")
-         call inlet_group(input%inlet, text, lines, good)
+         call inlet_group(input%inlet, text, lines, accepted)
       case ("grid")
-         call grid_group(input%grid, text, lines, good)
+         call grid_group(input%grid, text, lines, accepted)
       case ("surface")
-         call surface_group(input%surface, text, lines, good)
+         call surface_group(input%surface, text, lines, accepted)
       case ("second_surface")
-         call surface_group(input%second_surface, text, lines, good)
+         call surface_group(input%second_surface, text, lines, accepted)
       case ("time")
-         call time_group(input%time, text, lines, good)
+         call time_group(input%time, text, lines, accepted)
       case ("duty")
-         call duty_group(input%duty, text, lines, good)
+         call duty_group(input%duty, text, lines, accepted)
       case ("solver")
-         call solver_group(input%solver, text, lines, good)
+         call solver_group(input%solver, text, lines, accepted)
       case ("psd")
-         call psd_group(input%psd, text, lines, good)
+         call psd_group(input%psd, text, lines, accepted)
       case default
-         call output_group(input%output, text, lines, good)
+         call output_group(input%output, text, lines, accepted)
       end select
    end subroutine pass_group
 
    !> &contact
-   subroutine contact_group(v, text, lines, good)
+   subroutine contact_group(v, text, lines, accepted)
       type(contact_case_t), intent(inout), target :: v
       character(len=*), intent(in) :: text
       character(len=line_length), intent(inout) :: lines(:)
-      logical, intent(out) :: good
+      logical, intent(out) :: accepted
       integer :: stat
       character(len=word_length), pointer :: shape
       character(len=len(v%profiles%kind)), pointer :: profile, profile_2
@@ -153,15 +153,15 @@ contains
          v%profiles(2)%y = pack(profile_y_2, profile_y_2 < huge(1.0_dp))
          v%profiles(2)%table = pack(profile_drop_2, profile_drop_2 < huge(1.0_dp))
       end if
-      good = stat == 0
+      accepted = stat == 0
    end subroutine contact_group
 
    !> &bodies
-   subroutine bodies_group(v, text, lines, good)
+   subroutine bodies_group(v, text, lines, accepted)
       type(bodies_case_t), intent(inout), target :: v
       character(len=*), intent(in) :: text
       character(len=line_length), intent(inout) :: lines(:)
-      logical, intent(out) :: good
+      logical, intent(out) :: accepted
       integer :: stat
       real(dp), pointer :: radius_x1, radius_y1, radius_x2, radius_y2, modulus_1, modulus_2, poisson_1, poisson_2
       namelist /bodies/ radius_x1, radius_y1, radius_x2, radius_y2, modulus_1, modulus_2, poisson_1, poisson_2
@@ -173,15 +173,15 @@ contains
       else
          read (text, nml=bodies, iostat=stat)
       end if
-      good = stat == 0
+      accepted = stat == 0
    end subroutine bodies_group
 
    !> &inlet
-   subroutine inlet_group(v, text, lines, good)
+   subroutine inlet_group(v, text, lines, accepted)
       type(inlet_case_t), intent(inout), target :: v
       character(len=*), intent(in) :: text
       character(len=line_length), intent(inout) :: lines(:)
-      logical, intent(out) :: good
+      logical, intent(out) :: accepted
       integer :: stat
       real(dp), pointer :: position, position_hertz, film, film_hertz, replenishment
       integer, pointer :: passages
@@ -194,15 +194,15 @@ contains
       else
          read (text, nml=inlet, iostat=stat)
       end if
-      good = stat == 0
+      accepted = stat == 0
    end subroutine inlet_group
 
    !> &grid
-   subroutine grid_group(v, text, lines, good)
+   subroutine grid_group(v, text, lines, accepted)
       type(grid_case_t), intent(inout), target :: v
       character(len=*), intent(in) :: text
       character(len=line_length), intent(inout) :: lines(:)
-      logical, intent(out) :: good
+      logical, intent(out) :: accepted
       integer :: stat
       real(dp), pointer :: x_inlet, x_outlet, y_extent, target_error
       integer, pointer :: points, points_y, max_points
@@ -216,15 +216,15 @@ contains
       else
          read (text, nml=grid, iostat=stat)
       end if
-      good = stat == 0
+      accepted = stat == 0
    end subroutine grid_group
 
    !> &time
-   subroutine time_group(v, text, lines, good)
+   subroutine time_group(v, text, lines, accepted)
       type(time_case_t), intent(inout), target :: v
       character(len=*), intent(in) :: text
       character(len=line_length), intent(inout) :: lines(:)
-      logical, intent(out) :: good
+      logical, intent(out) :: accepted
       integer :: stat
       real(dp), pointer :: tolerance
       integer, pointer :: max_periods, steps
@@ -239,15 +239,15 @@ contains
       else
          read (text, nml=time, iostat=stat)
       end if
-      good = stat == 0
+      accepted = stat == 0
    end subroutine time_group
 
    !> &duty
-   subroutine duty_group(v, text, lines, good)
+   subroutine duty_group(v, text, lines, accepted)
       type(duty_case_t), intent(inout), target :: v
       character(len=*), intent(in) :: text
       character(len=line_length), intent(inout) :: lines(:)
-      logical, intent(out) :: good
+      logical, intent(out) :: accepted
       integer :: stat
       real(dp), pointer :: time_step, target_error
       integer, pointer :: periods
@@ -281,15 +281,15 @@ contains
          v%viscosity = pack(viscosity, viscosity < huge(1.0_dp))
          v%inlet_film = pack(inlet_film, inlet_film < huge(1.0_dp))
       end if
-      good = stat == 0
+      accepted = stat == 0
    end subroutine duty_group
 
    !> &solver
-   subroutine solver_group(v, text, lines, good)
+   subroutine solver_group(v, text, lines, accepted)
       type(solver_case_t), intent(inout), target :: v
       character(len=*), intent(in) :: text
       character(len=line_length), intent(inout) :: lines(:)
-      logical, intent(out) :: good
+      logical, intent(out) :: accepted
       integer :: stat
       real(dp), pointer :: accuracy
       integer, pointer :: max_cycles, threads
@@ -303,15 +303,15 @@ contains
       else
          read (text, nml=solver, iostat=stat)
       end if
-      good = stat == 0
+      accepted = stat == 0
    end subroutine solver_group
 
    !> &psd
-   subroutine psd_group(v, text, lines, good)
+   subroutine psd_group(v, text, lines, accepted)
       type(psd_case_t), intent(inout), target :: v
       character(len=*), intent(in) :: text
       character(len=line_length), intent(inout) :: lines(:)
-      logical, intent(out) :: good
+      logical, intent(out) :: accepted
       integer :: stat
       real(dp), pointer :: film_thickness, film_limit
       integer, pointer :: positions
@@ -328,15 +328,15 @@ contains
       else
          read (text, nml=psd, iostat=stat)
       end if
-      good = stat == 0
+      accepted = stat == 0
    end subroutine psd_group
 
    !> &output
-   subroutine output_group(v, text, lines, good)
+   subroutine output_group(v, text, lines, accepted)
       type(output_case_t), intent(inout), target :: v
       character(len=*), intent(in) :: text
       character(len=line_length), intent(inout) :: lines(:)
-      logical, intent(out) :: good
+      logical, intent(out) :: accepted
       integer :: stat
       real(dp), pointer :: frame_interval, checkpoint_interval
       logical, pointer :: fields
@@ -348,6 +348,6 @@ contains
       else
          read (text, nml=output, iostat=stat)
       end if
-      good = stat == 0
+      accepted = stat == 0
    end subroutine output_group
 end module ehl_case_groups

@@ -33,7 +33,7 @@ contains
       !> Pieces that replace others, whose invalid values are then dropped
       type(piece_t), intent(in), optional :: replacing(:)
       type(status_t) :: ignored
-      logical, allocatable :: good(:)
+      logical, allocatable :: valid(:)
       type(case_t) :: default_case
       character(len=name_length), allocatable :: keys(:)
       character(len=path_length + 2), allocatable :: values(:)
@@ -41,7 +41,7 @@ contains
       integer :: k, place
 
       group = ""
-      allocate (good(size(source%pieces)), source=.true.)
+      allocate (valid(size(source%pieces)), source=.true.)
       do k = 1, size(source%pieces)
          if (status%failed()) return
          associate (piece => source%pieces(k))
@@ -60,15 +60,15 @@ contains
             else
                ignored = status_t()
                call check_value(source, piece, trim(values(place)), ignored)
-               good(k) = .not. ignored%failed()
+               valid(k) = .not. ignored%failed()
                if (present(replacing)) then
                   if (is_one_of(piece, replacing)) cycle
                end if
-               if (.not. good(k)) status = ignored
+               if (.not. valid(k)) status = ignored
             end if
          end associate
       end do
-      call keep_pieces(source%pieces, good)
+      call keep_pieces(source%pieces, valid)
    end subroutine check_pieces
 
    !> Suggestion for a name
@@ -189,7 +189,7 @@ contains
       type(case_t), intent(inout) :: input
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: text, name
-      logical :: good
+      logical :: accepted
       integer :: k, n
 
       do n = 1, size(group_names)
@@ -202,8 +202,8 @@ contains
          end do
          if (text == "") cycle
          ! both surfaces have the same namelist group
-         call read_group(name, "&"//name(index(name, "_") + 1:)//text//" /", input, good)
-         if (.not. good) call source%refuse(name, "&"//name//" cannot be read", "values of its keys", status)
+         call read_group(name, "&"//name(index(name, "_") + 1:)//text//" /", input, accepted)
+         if (.not. accepted) call source%refuse(name, "&"//name//" cannot be read", "values of its keys", status)
       end do
    end subroutine read_pieces
 end module ehl_case_values

@@ -13,11 +13,11 @@ module ehl_large_groups
 contains
 
    !> Read &lubricant from a text, or write its lines if the text is empty
-   subroutine lubricant_group(v, text, lines, good)
+   subroutine lubricant_group(v, text, lines, accepted)
       type(lubricant_case_t), intent(inout), target :: v
       character(len=*), intent(in) :: text
       character(len=line_length), intent(inout) :: lines(:)
-      logical, intent(out) :: good
+      logical, intent(out) :: accepted
       integer :: stat
       real(dp), pointer :: viscosity, pressure_viscosity, roelands_z, roelands_p0, vogel_viscosity, vogel_b, vogel_c, &
          dicke_a1, dicke_a2, dicke_b1, dicke_b2, yasutomi_tg0, yasutomi_a1, yasutomi_a2, yasutomi_b1, yasutomi_b2, &
@@ -77,15 +77,15 @@ contains
          v%table_pressure = pack(table_pressure, table_pressure < huge(1.0_dp))
          v%table_viscosity = pack(table_viscosity, table_viscosity < huge(1.0_dp))
       end if
-      good = stat == 0
+      accepted = stat == 0
    end subroutine lubricant_group
 
    !> Likewise &surface, or &second_surface with the name &surface
-   subroutine surface_group(v, text, lines, good)
+   subroutine surface_group(v, text, lines, accepted)
       type(surface_case_t), intent(inout), target :: v
       character(len=*), intent(in) :: text
       character(len=line_length), intent(inout) :: lines(:)
-      logical, intent(out) :: good
+      logical, intent(out) :: accepted
       integer :: stat
       real(dp), pointer :: amplitude, amplitude_over_film, wavelength, wavelength_x, wavelength_y, velocity_ratio, x_start, &
          height_m, width, length, width_m, length_m, angle, y_start, spacing_y, length_x, length_y, crop_x_min, crop_x_max, &
@@ -119,6 +119,6 @@ contains
       else
          read (text, nml=surface, iostat=stat)
       end if
-      good = stat == 0
+      accepted = stat == 0
    end subroutine surface_group
 end module ehl_large_groups

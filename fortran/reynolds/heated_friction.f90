@@ -128,7 +128,7 @@ contains
       type(heat_response_t) :: response
       !> Heat into each wall; heat of a node over the stress of the law at its pressure and film
       real(dp) :: into(size(p), 2), factor(size(p)), flux, wall_rise, before(2), reduction, q, difference
-      logical :: good
+      logical :: node_solved
       integer :: i, k, first, last
 
       rise = 0.0_dp
@@ -155,8 +155,8 @@ contains
          if (solid(i)) then
             q = flux*stress(i)
          else if (i <= last) then
-            call heat_node(lubricant, p(i), h(i), factor(i), response%film, reduction, q, good)
-            solved = solved .and. good
+            call heat_node(lubricant, p(i), h(i), factor(i), response%film, reduction, q, node_solved)
+            solved = solved .and. node_solved
             stress(i) = q/flux
          end if
          ! the hotter wall heats the other one through the film, also where there is no frictional heat

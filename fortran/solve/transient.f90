@@ -57,7 +57,7 @@ contains
       type(status_t), intent(inout) :: status
       type(contact_results_t) :: first
       real(dp) :: residual_first
-      logical :: good
+      logical :: accepted
 
       outcome = outcome_running
       if (status%failed()) return
@@ -72,15 +72,15 @@ contains
             end if
             call solve_step(transient, hierarchy, surfaces, first, residual_first, outcome, status)
             if (status%failed()) return
-            good = outcome == outcome_converged
-            if (good .and. transient%settling) then
+            accepted = outcome == outcome_converged
+            if (accepted .and. transient%settling) then
                call transient%settle(level)
                cycle
             end if
-            if (good .and. duty%active) call transient%assess_duty(level, good)
-            if (good) call transient%accept(level, first, residual_first, status)
+            if (accepted .and. duty%active) call transient%assess_duty(level, accepted)
+            if (accepted) call transient%accept(level, first, residual_first, status)
             call transient%end_duty(level)
-            if (good) return
+            if (accepted) return
             call transient%step_back(level, surfaces)
             if (.not. duty%active) return
             if (.not. transient%duty_steps%cut()) return

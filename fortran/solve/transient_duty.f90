@@ -72,7 +72,7 @@ contains
       j = central_row(level%grid)
       call self%duty_steps%assess(self%duty, self%time_step, self%now%mean_velocity(), &
                                   self%duty_error%max_added(level%grid%columns(), level%h(:, j), &
-                                                            self%duty_steps%before(self%time_step), half_width(self), j), good)
+                                                            self%duty_steps%before(self%time_step), half_width(self), j), accepted)
    end procedure assess_duty
 
    module procedure growth

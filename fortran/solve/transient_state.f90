@@ -154,10 +154,10 @@ module ehl_transient_state
       end function growth
 
       !> Whether the film of a step under a duty has the required accuracy
-      module subroutine assess_duty(self, level, good)
+      module subroutine assess_duty(self, level, accepted)
          class(transient_t), intent(inout) :: self
          type(level_t), intent(in) :: level
-         logical, intent(out) :: good
+         logical, intent(out) :: accepted
       end subroutine assess_duty
 
       !> Keep the steady contact in the discretisation of the steps as their initial state

@@ -117,21 +117,21 @@ contains
       if (self%steps(1) > 0.0_dp) ratio = step/self%steps(1)
    end function ratio
 
-   !> Test the error added by a step: `good` is false if it exceeds the target and the step may be halved
-   subroutine assess(self, duty, step, speed, error, good)
+   !> Test the error added by a step: `accepted` is false if it exceeds the target and the step may be halved
+   subroutine assess(self, duty, step, speed, error, accepted)
       class(duty_steps_t), intent(inout) :: self
       type(duty_t), intent(in) :: duty
       !> The step, the mean velocity, and the relative error of the films that the step adds
       real(dp), intent(in) :: step, speed, error
-      logical, intent(out) :: good
+      logical, intent(out) :: accepted
       real(dp) :: allowed
 
-      good = .true.
+      accepted = .true.
       self%next_factor = growth
       if (.not. duty%target_error > 0.0_dp) return
       allowed = duty%target_error*max(min_fraction, step*max(abs(speed), min_speed*duty%max_speed())/transit)
       self%next_factor = min(growth, max(0.5_dp, 0.8_dp*(allowed/max(error, tiny(1.0_dp)))**(1.0_dp/3.0_dp)))
-      good = error <= allowed .or. self%cuts >= max_error_cuts
+      accepted = error <= allowed .or. self%cuts >= max_error_cuts
    end subroutine assess
 
    !> A step and the previous ones; before the first one the contact is steady, so that they may have its length

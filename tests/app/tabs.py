@@ -16,13 +16,13 @@ import time
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import websocket_connect
 
-ALLOWED, PATIENCE = 20.0, 300.0
+ALLOWED, TIMEOUT = 20.0, 300.0
 """Seconds until all tabs are open, and until the script gives up."""
 
 
 async def tab(address: str, began: float) -> tuple[float, float]:
     """Give the seconds until a tab has its page, and its socket."""
-    waits = {"request_timeout": PATIENCE, "connect_timeout": PATIENCE}
+    waits = {"request_timeout": TIMEOUT, "connect_timeout": TIMEOUT}
     answer = await AsyncHTTPClient().fetch(HTTPRequest(address, **waits))
     page = time.perf_counter() - began
     match = re.search(r'"token":"([^"]+)"', answer.body.decode())

@@ -87,7 +87,7 @@ def rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2)))
 
 
-def left(done: Any) -> float:
+def residual_bound(done: Any) -> float:
     """Largest residual (rms) of the last step, with a margin for the two steps before it."""
     last, before, earlier = done.history["residual"][:-4:-1]
     return last + 4.0 / 3.0 * before + earlier / 3.0
@@ -183,7 +183,7 @@ def test_time_step(march):
         transport[2:] = (1.5 * m[2:] - 2.0 * before[1:-1] + 0.5 * earlier[:-2]) / now.h
         transport[1] = (m[1] - before[0]) / now.h
     assert done.history["residual"].max() <= done["step_residual_allowed"]
-    assert rms(now.residual(transport)) <= (1.0 + 1e-5) * left(done)
+    assert rms(now.residual(transport)) <= (1.0 + 1e-5) * residual_bound(done)
     # The roughness is in the right place, and its peaks thin the film
     distance = now.x - (START + VELOCITY * done["T"])
     along = 10.0 ** (-10.0 * np.maximum(0.0, distance / WAVELENGTH) ** 2)
@@ -219,7 +219,7 @@ def test_mass_balance(march):
     outflow = convected(east) + along[east, j].sum() * h
     outflow += (across[i, north] - across[i, south - 1]).sum() * h
     # The sum of the residuals is bounded by their rms over the whole plane (Cauchy-Schwarz)
-    allowed = left(done) * h**2 * np.sqrt(m[i, j].size * m.size)
+    allowed = residual_bound(done) * h**2 * np.sqrt(m[i, j].size * m.size)
     assert abs(stored + outflow - inflow) < allowed
     # which is small compared with the terms of the balance
     assert abs(stored) > 20.0 * allowed

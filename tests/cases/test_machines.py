@@ -61,8 +61,8 @@ def test_ball_bearing(root: Path, drive, tmp_path: Path):
     assert f"| {films[0]:.1f} nm | {films[1]:.1f} nm |" in text
     # the formulas are those of its regime
     for formula in (f for f in sheet["formulas"] if f["applies"]):
-        least = f" {formula['h_min_m'] * 1e9:.1f} nm |" if formula["h_min_m"] else ""
-        assert f"| {formula['h_c_m'] * 1e9:.1f} nm |{least}" in text
+        minimum = f" {formula['h_min_m'] * 1e9:.1f} nm |" if formula["h_min_m"] else ""
+        assert f"| {formula['h_c_m'] * 1e9:.1f} nm |{minimum}" in text
     assert f"{result['rolling_moment_N_m'] * 1e4:.2f}·10⁻⁴ N m" in text
     assert f"is {1 - result['H_min'] / result['H_c']:.0%} below".replace("%", " %") in text
     # bearing, speed and load determine the case
@@ -87,11 +87,11 @@ def test_gear_pair(root: Path, drive, tmp_path: Path):
     films = [record[f"{name}_extrapolated"] * unit for name in ("H_c", "H_min")]
     assert f"| {films[0]:.1f} nm | {films[1]:.1f} nm |" in text
     for formula in (f for f in pyehl.film(case).formulas if f["applies"]):
-        least = f" {formula['h_min_m'] * 1e9:.1f} nm |" if formula["h_min_m"] else ""
-        assert f"| {formula['h_c_m'] * 1e9:.1f} nm |{least}" in text
+        minimum = f" {formula['h_min_m'] * 1e9:.1f} nm |" if formula["h_min_m"] else ""
+        assert f"| {formula['h_c_m'] * 1e9:.1f} nm |{minimum}" in text
     assert f"```text\n{conclude(record)}\n```" in text
-    least = [round(record[name] * 1e9) for name in ("h_min_m", "h_min_rough_m")]
-    assert "minimum film from {} to {} nm".format(*least) in text
+    minimum = [round(record[name] * 1e9) for name in ("h_min_m", "h_min_rough_m")]
+    assert "minimum film from {} to {} nm".format(*minimum) in text
     assert 0.0 < abs(1.0 - record["mu_ratio"]) < 0.005
     predicted = pyehl.predict(case, tracks=1).summary
     min_film = round(predicted["h_min_rough_m"] * 1e9)

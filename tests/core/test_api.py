@@ -371,7 +371,7 @@ def test_plot_takes_predictions_and_refuses_other_objects():
 
 
 @pytest.mark.parametrize(
-    ("command", "stopped", "states"),
+    ("command", "stopped", "message"),
     [
         ("predict", "pyehl.commands.predict.predict", "no result is written"),
         ("stribeck", "pyehl.commands.stribeck.plan_curve", "no result is written"),
@@ -379,7 +379,7 @@ def test_plot_takes_predictions_and_refuses_other_objects():
     ],
 )
 def test_an_interrupt_reports_what_is_kept(
-    cases: Path, tmp_path: Path, capsys, monkeypatch, command: str, stopped: str, states: str
+    cases: Path, tmp_path: Path, capsys, monkeypatch, command: str, stopped: str, message: str
 ):
     def interrupted(*args, **words):
         raise KeyboardInterrupt
@@ -388,4 +388,4 @@ def test_an_interrupt_reports_what_is_kept(
     words = [command, str(cases / "table1.nml"), "-o", str(tmp_path / "out")]
     words += ["--speed", "0.3", "--quiet"] if command == "stribeck" else []
     assert cli.main(words) == 130
-    assert f"interrupted; {states}" in capsys.readouterr().err
+    assert f"interrupted; {message}" in capsys.readouterr().err

@@ -417,7 +417,7 @@ def test_a_page_too_wide_for_a_phone_is_found(script, tmp_path):
     own = f'<div style="overflow: auto">{wide}</div>'
     (tmp_path / "scrolls.html").write_text(f"{head}<article>{own}</article>")
     (tmp_path / "search.html").write_text(head)
-    result = " ".join(phone.faults(tmp_path, None, patience=1.0))
+    result = " ".join(phone.faults(tmp_path, None, timeout=1.0))
     assert "wide.html: 9" in result
     assert "hidden.html: cut" in result
     assert "good.html" not in result

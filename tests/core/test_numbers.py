@@ -274,11 +274,11 @@ def test_no_ratio_is_none(text: str):
 def test_minimum_rough_film_is_that_of_the_time_of_the_mean():
     data = pyehl.solve(Case.from_text(ON_GRID))
     mean = data.history_T > float(data.history_T[-1]) - float(data.T_mean) - 1e-9
-    least = float(data.history_H_min[mean].min())
-    assert float(data.H_min_rough) == pytest.approx(least, rel=1e-12)
+    minimum = float(data.history_H_min[mean].min())
+    assert float(data.H_min_rough) == pytest.approx(minimum, rel=1e-12)
     assert float(data.H_min_rough) < float(data.H_min)
     scale = float(data.film_scale_m)
-    assert float(data.h_min_rough_m) == pytest.approx(least * scale, rel=1e-12)
+    assert float(data.h_min_rough_m) == pytest.approx(minimum * scale, rel=1e-12)
     assert float(data.h_min_m) == pytest.approx(float(data.H_min) * scale, rel=1e-12)
 
 

@@ -16,7 +16,7 @@ RESOLVED = pyehl.Case(
     surface={"kind": "fractal"},
     psd={"reduction": "amplitude", "smooth": "hertz", "film_thickness": 0.2333e-6},
 ).resolve()
-# a test may replace it by a wave
+# for tests that replace the surface by a wave
 RESOLVED["surface"]["amplitude_over_film"] = 0.4
 
 

@@ -190,7 +190,7 @@ def test_rough_surfaces_get_no_threshold_of_spikes(settings):
 def test_tracks(scan):
     """Over the map but not over its mirror image; the track shifts the surface across."""
     scan["surface"]["outliers"] = 50.0
-    # the number of tracks other than the first
+    # as many positions on the first track as on the others
     scan["psd"]["positions"] = 8
     one = predict(scan, tracks=1)
     assert one.tracks[0] == pytest.approx(one.mu_ratio, rel=1e-12)

@@ -81,7 +81,7 @@ KAPPAS = [0.1, 0.3, 0.45, 1.0, 2.0, 3.0, 6.0, 10.0, 25.0]
 )
 def test_no_texts_of_a_solution_collide(kappa, units):
     """Pictures of smooth and rough contacts that are narrow, round and wide."""
-    x = kappa * 0.0 + np.linspace(-2.5, 1.5, 65) * max(1.0, 0.3 / kappa)
+    x = np.linspace(-2.5, 1.5, 65) * max(1.0, 0.3 / kappa)
     y = np.linspace(-1.6, 1.6, 65) * max(1.0, kappa)
     inside = np.maximum(0.0, 1.0 - x[:, None] ** 2 - (y[None, :] / kappa) ** 2)
     film = 0.03 + 0.5 * np.maximum(0.0, x[:, None] ** 2 + (y[None, :] / kappa) ** 2 - 1.0)

@@ -130,19 +130,19 @@ def made(hurst, rolloff, seed, n=4096, rms=3e-7):
 @pytest.mark.parametrize(("hurst", "rolloff"), [(0.5, 0.0), (0.8, 6e4), (0.3, 1e5), (0.9, 0.0)])
 def test_bands_contain_the_true_values(hurst, rolloff):
     """For 20 profiles nearly all bands of 95 % contain the true value."""
-    held = {"hurst": 0, "rolloff": 0, "rms": 0}
+    contained = {"hurst": 0, "rolloff": 0, "rms": 0}
     for seed in range(20):
         result = fit(made(hurst, rolloff, seed), ridges=True)
-        held["hurst"] += result.hurst_band[0] <= hurst <= result.hurst_band[1]
+        contained["hurst"] += result.hurst_band[0] <= hurst <= result.hurst_band[1]
         # a roll-off that cannot be distinguished from none is none
         reported = result.rolloff_band[0] <= rolloff <= result.rolloff_band[1]
-        held["rolloff"] += reported or result.rolloff == 0.0
-        held["rms"] += result.rms_band[0] <= 3e-7 <= result.rms_band[1]
+        contained["rolloff"] += reported or result.rolloff == 0.0
+        contained["rms"] += result.rms_band[0] <= 3e-7 <= result.rms_band[1]
         assert result.hurst_band[1] - result.hurst_band[0] < 0.5
-    assert held["hurst"] >= 17
-    assert held["rolloff"] >= 17
+    assert contained["hurst"] >= 17
+    assert contained["rolloff"] >= 17
     if rolloff:
-        assert held["rms"] >= 17
+        assert contained["rms"] >= 17
 
 
 @pytest.mark.long
@@ -184,12 +184,12 @@ def test_a_profile_extended_to_an_isotropic_surface(tmp_path, z):
         f"&surface kind = 'map' file = '{path}' profile = 'isotropic' pixels = 128 /"
     )
     result = pyehl.predict(case, UNSOLVED, tracks=1)
-    results = fit(read_profile(path))
+    fitted = fit(read_profile(path))
     tile = result.surface
     assert tile.shape == (128, 128)
     assert tile.size == pytest.approx((N * DX, N * DX))
-    assert 0.8 * results.rms < tile.rms_height <= results.rms
-    assert f"Hurst exponent {results.hurst:.2f}" in tile.preparation.record.note
+    assert 0.8 * fitted.rms < tile.rms_height <= fitted.rms
+    assert f"Hurst exponent {fitted.hurst:.2f}" in tile.preparation.record.note
     # the same along and across, and another seed gives another surface
     slopes = [np.std(np.diff(tile.heights, axis=axis)) for axis in (0, 1)]
     assert slopes[0] == pytest.approx(slopes[1], rel=0.1)

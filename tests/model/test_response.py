@@ -135,8 +135,8 @@ def test_flow_of_the_contact_turns_a_leaking_wave():
     qx, turned = np.array([15.0]), []
     for rising in (0.0, 0.2):
         thinner = 1e-3 * np.exp(-10.0 * rising * x)
-        held = 0.05 * same, 0.0 * same, 10.0 * same, thinner
-        contact = Zone(x, rising * x, 0.03 * same, same, *held)
+        values = 0.05 * same, 0.0 * same, 10.0 * same, thinner
+        contact = Zone(x, rising * x, 0.03 * same, same, *values)
         turned.append(np.array(transport(contact, qx, 0.0 * qx, 1.0, STATIONS))[:, :, 0].sum(1))
     uniform_film, thinning = turned
     # both parts add up to the roughness where there is no pressure

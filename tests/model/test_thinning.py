@@ -294,10 +294,6 @@ ERRORS = {
 }
 
 
-# Largest deviations, and how many the stated errors cover: of the results from which the error of
-# the film was derived, and of those predicted before they were simulated
-
-
 @pytest.mark.parametrize("name", ["e1", "e8"])
 def test_table_of_surfaces_is_what_is_predicted(root, script, name):
     rough = script("docs/evidence/thinning/rough.py")

@@ -149,7 +149,7 @@ def test_any_csv(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    ("lines", "states"),
+    ("lines", "message"),
     [
         (["contact.moes_n,H_c,H_c_rtol", "1,2,3"], "did you mean 'contact.moes_m'"),
         (["H_c,H_d_rtol", "1,2"], "tolerance of no column; did you mean 'H_c'"),
@@ -164,11 +164,13 @@ def test_any_csv(tmp_path: Path):
         (["H_cc,H_cc_rtol", "1,1"], "did you mean 'H_c'"),
     ],
 )
-def test_bad_tables(study: tuple[Path, list[float]], tmp_path: Path, lines: list[str], states: str):
+def test_bad_tables(
+    study: tuple[Path, list[float]], tmp_path: Path, lines: list[str], message: str
+):
     table = write(tmp_path / "t.csv", *lines)
     with pytest.raises(InputError) as refusal:
         compare(read_results(study[0]), read_reference(table))
-    assert states in str(refusal.value)
+    assert message in str(refusal.value)
     assert "t.csv" in str(refusal.value)
 
 

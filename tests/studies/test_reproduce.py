@@ -31,8 +31,8 @@ def one(name: str, folder: Path, **more: Any) -> Result:
 
 
 def check_of(result: Result, words: str) -> Check:
-    (results,) = [check for check in result.checks if words in check.name]
-    return results
+    (found,) = [check for check in result.checks if words in check.name]
+    return found
 
 
 def wrong(name: str, factor: float) -> dict[str, Any]:
@@ -45,9 +45,9 @@ def test_table_1(tmp_path: Path):
     assert result.passed
     assert len(result.checks) == 17
     # numbers that follow from the inputs, to the digits printed or calculated by hand
-    for name, least in (("hertz_pressure", 2e-4), ("hertz_radius", 1e-5), ("moes_m", 2e-5)):
+    for name, tolerance in (("hertz_pressure", 2e-4), ("hertz_radius", 1e-5), ("moes_m", 2e-5)):
         check = check_of(result, name)
-        assert abs(check.deviation / check.expected) < least
+        assert abs(check.deviation / check.expected) < tolerance
     assert check_of(result, "moes_l").deviation == pytest.approx(0.0237, abs=1e-3)
     assert "pass: 17 of 17" in (tmp_path / "report.html").read_text()
 
