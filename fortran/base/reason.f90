@@ -12,9 +12,9 @@ module ehl_reason
              friction_of_rough, friction_no_size, friction_rolling, friction_no_smooth, friction_above_limit, &
              friction_not_converged, friction_wall_at_rest, friction_rolling_line
 
-   !> Missing error estimate: no solution; solutions on fewer than three grids; the change from grid to grid does
-   !> not decrease; no flooded film for comparison; solid contact because the inlet is not resolved; the grid is too coarse for a
-   !> solution; the ends of a narrow contact are not resolved
+   !> 0: nothing is missing. Missing error estimate: no solution; solutions on fewer than three grids; the change from grid to
+   !> grid does not decrease; no flooded film for comparison; solid contact because the inlet is not resolved; the grid is too
+   !> coarse for a solution; the ends of a narrow contact are not resolved
    integer, parameter :: reason_none = 0, reason_no_solution = 1, reason_two_grids = 2, reason_no_limit = 3, &
                          reason_small_domain = 4, reason_inlet = 5, reason_coarse_grid = 6, reason_narrow = 7
    !> Missing error estimate of a roller that ends under load

@@ -152,13 +152,13 @@ contains
    end subroutine ring_loads
 
    !> Film with a moved edge: see moved_film
-   subroutine film_moved(nx, ny, points, count, all, smooth, centre, x, y, edge, share, moved, place, film)
+   subroutine film_moved(nx, ny, points, count, all, smooth, centre, x, y, edge, weight, moved, place, film)
       integer(c_int), intent(in) :: nx, ny, points, count, all
-      real(c_double), intent(inout) :: smooth(ny, nx), centre(2), x(points), y(points), share(2, points), moved(count)
+      real(c_double), intent(inout) :: smooth(ny, nx), centre(2), x(points), y(points), weight(2, points), moved(count)
       integer(c_int), intent(inout) :: edge(points), place(points)
       real(c_double), intent(inout) :: film(all)
       !f2py threadsafe
 
-      call moved_film(smooth, centre, x, y, edge, share, moved, place, film)
+      call moved_film(smooth, centre, x, y, edge, weight, moved, place, film)
    end subroutine film_moved
 end module ehl_f2py_surfaces

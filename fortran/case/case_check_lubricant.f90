@@ -171,13 +171,13 @@ contains
 
    contains
 
-      subroutine agree(key, value, follows)
+      subroutine agree(key, value, derived)
          character(len=*), intent(in) :: key
-         real(dp), intent(in) :: value, follows
+         real(dp), intent(in) :: value, derived
          character(len=*), parameter :: group = "lubricant."
 
-         if (abs(value - follows) > rounding*follows) call source%refuse(group//key, group//key//" = "//to_text(value)// &
-            ", and the law or the data sheet gives "//short(follows), key//", or the values that it follows from", status)
+         if (abs(value - derived) > rounding*derived) call source%refuse(group//key, group//key//" = "//to_text(value)// &
+            ", and the law or the data sheet gives "//short(derived), key//", or the values that it follows from", status)
          call source%check_range(group//key, value, group//key, "the law", status)
       end subroutine agree
    end subroutine check_inlet

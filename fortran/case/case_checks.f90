@@ -183,10 +183,10 @@ contains
          if (abs(radius) > 0.0_dp) curvature = 1.0_dp/radius
       end function curvature
 
-      subroutine agree(key, value, follows)
+      subroutine agree(key, value, derived)
          character(len=*), intent(in) :: key
-         real(dp), intent(in) :: value, follows
-         if (abs(value - follows) > rounding*abs(value)) call source%refuse("contact."//key, "contact."//key// &
+         real(dp), intent(in) :: value, derived
+         if (abs(value - derived) > rounding*abs(value)) call source%refuse("contact."//key, "contact."//key// &
             " is not that of &bodies", by_pyehl//"one of the two", status)
       end subroutine agree
    end subroutine check_bodies

@@ -29,12 +29,12 @@ contains
       real(dp), intent(in) :: value, expected, tolerance
       character(len=*), intent(in) :: what
       character(len=100) :: numbers
-      logical :: good
+      logical :: close_enough
 
-      good = .not. ieee_is_nan(value)
-      if (good) good = abs(value - expected) <= tolerance
+      close_enough = .not. ieee_is_nan(value)
+      if (close_enough) close_enough = abs(value - expected) <= tolerance
       write (numbers, "(3(a, es24.16))") " is", value, " expected", expected, " within", tolerance
-      call is_true(good, what // trim(numbers))
+      call is_true(close_enough, what // trim(numbers))
    end subroutine is_close
 
    !> Check that two integers are equal

@@ -9,7 +9,7 @@ module test_lock
    public :: run_lock
 
    !> A valid lock, and one that is no mutex
-   type(lock_t), target :: good, none
+   type(lock_t), target :: valid, invalid
 
 contains
 
@@ -17,18 +17,18 @@ contains
    subroutine run_lock()
       type(status_t) :: fine, bad
 
-      call lock(good, fine)
-      call unlock(good, fine)
-      call lock(good, fine)
-      call unlock(good, fine)
+      call lock(valid, fine)
+      call unlock(valid, fine)
+      call lock(valid, fine)
+      call unlock(valid, fine)
       call is_true(.not. fine%failed(), "lock and unlock")
-      none%mutex = -1
-      call lock(none, bad)
+      invalid%mutex = -1
+      call lock(invalid, bad)
       call is_equal(bad%code, ehl_internal, "lock that is no mutex")
       ! after a failure the lock is not acquired: otherwise this would wait for ever
-      call lock(good, bad)
-      call lock(good, fine)
-      call unlock(good, fine)
+      call lock(valid, bad)
+      call lock(valid, fine)
+      call unlock(valid, fine)
       call is_true(.not. fine%failed(), "lock after a failure")
    end subroutine run_lock
 end module test_lock

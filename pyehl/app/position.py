@@ -70,7 +70,7 @@ class Position:
     base
         The other keys of the case, as namelist text.
     modulus
-        E' [Pa] of an opened case, until a modulus changes; 0: by the moduli.
+        E' [Pa] of an opened case, until an elastic constant of a body changes; 0: by these.
     file
         Height map of the surface 'map'; '': none yet.
     oil
@@ -104,7 +104,7 @@ class Position:
             if modulus <= 0.0 or not -1.0 < poisson <= 0.5:
                 raise InputError(
                     f"body {body}: E = {modulus:g} Pa, ν = {poisson:g}: expected E above 0 and ν "
-                    "up to 0.5"
+                    "above -1 and up to 0.5"
                 )
             total += (1.0 - poisson**2) / modulus
         return float(f"{2.0 / total:.12g}")
@@ -218,7 +218,7 @@ def _kept(text: str) -> str:
 
 
 def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Position, str]:
-    """Set the controls from a case; returns a note on conversions.
+    """Give the position of the controls for a case, and a note on conversions.
 
     `files` are the maps that may be read, by their names; None: those of the case. A case in M and
     L becomes one in SI units with the radius and the modulus of a steel ball. InputError if the

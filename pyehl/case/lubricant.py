@@ -99,16 +99,16 @@ def _take_table(draft: Draft) -> None:
         oil.range_pressure_max = min(highest.values())
 
 
-def _follow(draft: Draft, key: str, follows: float) -> None:
+def _follow(draft: Draft, key: str, derived: float) -> None:
     """Set a key that is not given to its derived value; refuse a given value that differs."""
     oil, by, name = draft.settings.lubricant, _law_key(draft), f"lubricant.{key}"
     temperature = f"{to_text(oil.temperature)} degC"
     value: float = getattr(oil, key)
     if not draft.is_given("lubricant", key):
-        setattr(oil, key, follows)
-        draft.check_range(name, follows, by, f"{by} at {temperature}")
-    elif abs(value - follows) > ROUNDING * follows:
-        why = f"{name} = {to_text(value)}, and the law gives {short(follows)} at {temperature}"
+        setattr(oil, key, derived)
+        draft.check_range(name, derived, by, f"{by} at {temperature}")
+    elif abs(value - derived) > ROUNDING * derived:
+        why = f"{name} = {to_text(value)}, and the law gives {short(derived)} at {temperature}"
         draft.contradict(name, by, f"{key}, or the law that gives it", why)
 
 
@@ -312,18 +312,18 @@ def complete_viscosity(draft: Draft) -> None:
         )
         at = f"lubricant.kinematic_viscosity_{100 if given else 40}"
         draft.refuse(at, what, "both, that at 100 degC the smaller one")
-    follows, slope = physics.sheet(oil.temperature, sheet, oil.density_15, oil.thermal_expansion)
+    derived, slope = physics.sheet(oil.temperature, sheet, oil.density_15, oil.thermal_expansion)
     if not draft.is_given("lubricant", "temperature_viscosity"):
         oil.temperature_viscosity = slope
     if not draft.is_given("lubricant", "viscosity"):
-        oil.viscosity = follows
+        oil.viscosity = derived
         origin = f"the data sheet at {temperature}"
-        draft.check_range("lubricant.viscosity", follows, "lubricant.temperature", origin)
-    elif abs(oil.viscosity - follows) > ROUNDING * follows:
+        draft.check_range("lubricant.viscosity", derived, "lubricant.temperature", origin)
+    elif abs(oil.viscosity - derived) > ROUNDING * derived:
         given = draft.is_given("lubricant", "kinematic_viscosity_40")
         why = (
             f"lubricant.viscosity = {to_text(oil.viscosity)}, and the data sheet gives "
-            f"{short(follows)} Pa s at {temperature}"
+            f"{short(derived)} Pa s at {temperature}"
         )
         other = "lubricant.kinematic_viscosity_40" if given else "lubricant.name"
         draft.contradict(

@@ -104,7 +104,7 @@ def check_keys(draft: Draft) -> None:
             what = f"bodies.{name} with {SHAPE}"
             draft.refuse(f"bodies.{name}", what, "contact.profile = 'crown' with crown_radius")
     _check_profile(draft)
-    for name, good, expected in (
+    for name, allowed, expected in (
         ("surface.kind", s.surface.kind == "smooth", "'smooth' surfaces"),
         ("second_surface.kind", s.second_surface.kind == "smooth", "'smooth' surfaces"),
         ("inlet.position", max(s.inlet.position, s.inlet.position_hertz) <= 0.0, "a flooded inlet"),
@@ -114,7 +114,7 @@ def check_keys(draft: Draft) -> None:
         ("grid.y_extent", not draft.is_given("grid", "y_extent"), "none: half the length"),
         ("solver.coarsening", s.solver.coarsening != "alcouffe", "'auto' or 'classical'"),
     ):
-        if not good:
+        if not allowed:
             draft.refuse(name, f"{name} with {SHAPE}", expected)
 
 

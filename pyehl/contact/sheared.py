@@ -27,7 +27,7 @@ MIN_SAMPLES = 128
 
 
 def thins(lubricant: Lubricant, operating: AnyContact) -> bool:
-    """Whether the shear stress is not Newtonian; without sliding it is."""
+    """Whether the shear stress is not Newtonian; without sliding it is Newtonian."""
     return lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
 
 

@@ -287,9 +287,10 @@ class Prediction:
         """Why `model_error` is not known; '' if it is known."""
         if self.mixed and self.mixed.friction_unknown:
             return NO_FRICTION
-        of = self.mu_ratio, self.outside_range, self.options
         alone = thins(self.lubricant, self.operating) and not self.lubricant.shear.in_flow
-        return why_no_error(*of, friction_alone_thins=alone)
+        return why_no_error(
+            self.mu_ratio, self.outside_range, self.options, friction_alone_thins=alone
+        )
 
     @property
     def is_known(self) -> bool:

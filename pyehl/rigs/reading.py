@@ -128,7 +128,7 @@ def _pcs(name: str, lines: Lines) -> Iterator[Step]:
         # a line with two or more known column names begins a table
         if sum(quantity_of(cell) is not None for cell in cells) >= 2:
             last = number + 1
-            while last < len(lines) and lines[last].strip() and _is_number(lines[last]):
+            while last < len(lines) and lines[last].strip() and _begins_with_number(lines[last]):
                 last += 1
             rows = [line.split("\t") for line in lines[number + 1 : last]]
             yield _step(name, title, cells, rows, number + 1)
@@ -136,7 +136,7 @@ def _pcs(name: str, lines: Lines) -> Iterator[Step]:
         number += 1
 
 
-def _is_number(line: str) -> bool:
+def _begins_with_number(line: str) -> bool:
     try:
         float(line.partition("\t")[0])
     except ValueError:

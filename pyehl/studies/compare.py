@@ -127,18 +127,18 @@ def _key(where: str, key: str, cell: str) -> Key:
         return cell.strip("'\"")
 
 
-def _expected(where: str, name: str, result: dict[str, str]) -> Expected:
-    value = _number(where, name, result[name])
-    given = [f"{name}{end}" for end in TOLERANCES if result.get(f"{name}{end}")]
+def _expected(where: str, name: str, row: dict[str, str]) -> Expected:
+    value = _number(where, name, row[name])
+    given = [f"{name}{end}" for end in TOLERANCES if row.get(f"{name}{end}")]
     if not given:
         raise InputError(
             f"{where} {name} has no tolerance\nexpected: a column {name}_rtol or {name}_atol"
         )
     tolerance = 0.0
     for column in given:
-        number = _number(where, column, result[column])
+        number = _number(where, column, row[column])
         if number < 0.0:
-            raise InputError(f"{where} {column} = {result[column]}\nexpected: not negative")
+            raise InputError(f"{where} {column} = {row[column]}\nexpected: not negative")
         tolerance += number * abs(value) if column.endswith("_rtol") else number
     return Expected(value, tolerance)
 

@@ -188,8 +188,8 @@ def _row(
     if (law := plan.load_share) is not None and values["lambda_ratio_central"] is not None:
         # at a film breakdown the film has the friction of the smooth contact
         ratio = values["lambda_ratio_central"]
-        film = smooth.get("mu_smooth") if values["mu"] is None else values["mu"]
-        mu = None if film is None else law.friction(ratio, film)
+        mu_film = smooth.get("mu_smooth") if values["mu"] is None else values["mu"]
+        mu = None if mu_film is None else law.friction(ratio, mu_film)
         values |= dict(zip(EMPIRICAL, (law.share(ratio), mu), strict=True))
     if point.settings["lubricant"]["boundary_film"]:
         for name, over_all in CONTACT.items():

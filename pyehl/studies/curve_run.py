@@ -50,7 +50,8 @@ COLUMNS = {
 def absolute_friction(plan: CurvePlan, table: pd.DataFrame) -> bool:
     """Whether all results of sliding contacts are coefficients of friction.
 
-    A point whose smooth contact has no solution has only a ratio and does not count.
+    Points whose smooth contact has no solution do not count, nor do those without a ratio beyond
+    the range of the prediction.
     """
     sliding = np.array([bool(p.settings["contact"]["slide_to_roll"]) for p in plan.points])
     result = table[sliding & table["status"].isin((FULL_FILM, MIXED, OUTSIDE))]
@@ -70,8 +71,8 @@ def report(plan: CurvePlan, table: pd.DataFrame) -> str:
         lines.append("  ".join([*cells, row["status"]]))
     for curve in curves_of(plan, table):
         lines.append(f"{curve.label + ': ' if curve.label else ''}{curve.ends}")
-        if ends := curve.lift_off:
-            lines.append(ends.words)
+        if lift_off := curve.lift_off:
+            lines.append(lift_off.words)
     if plan.load_share is not None:
         lines.append(plan.load_share.words)
     return "\n".join(lines)
@@ -172,14 +173,17 @@ def perform(
 
 def dataset(plan: CurvePlan, result: pd.DataFrame) -> xr.Dataset:
     """Give a curve as a Dataset whose dimensions are the varied keys."""
-    attributes, ended = {"title": "Stribeck curve of pyehl"}, {}
-    if len(plan.study.keys) == 1 and (ends := curves_of(plan, result)[0].lift_off):
-        speeds = {"transition_speed_m_s": ends.speed, "transition_speed_error_m_s": ends.error}
-        ended = {name: ((), value, {"units": "m/s"}) for name, value in speeds.items()}
+    attributes, transition = {"title": "Stribeck curve of pyehl"}, {}
+    if len(plan.study.keys) == 1 and (lift_off := curves_of(plan, result)[0].lift_off):
+        speeds = {
+            "transition_speed_m_s": lift_off.speed,
+            "transition_speed_error_m_s": lift_off.error,
+        }
+        transition = {name: ((), value, {"units": "m/s"}) for name, value in speeds.items()}
     if plan.load_share is not None:
         attributes["empirical"] = plan.load_share.words
     columns = result.drop(columns=CONCLUSION)
-    return over(plan.study, columns, units_of(plan), attributes, float).assign(ended)
+    return over(plan.study, columns, units_of(plan), attributes, float).assign(transition)
 
 
 def stribeck(

@@ -57,11 +57,11 @@ def extent(heights: Array, pixel: tuple[float, float]) -> Extent:
     for first in range(0, heights.shape[0], lines):
         z = heights[first : first + lines + 1] - mean
         inner = z[:lines]
-        good = inner[~np.isnan(inner)] if np.isnan(inner.sum()) else inner.ravel()
-        if good.size:
-            count += good.size
-            square += float(np.einsum("i,i->", good, good))
-            minimum, maximum = min(minimum, float(good.min())), max(maximum, float(good.max()))
+        valid = inner[~np.isnan(inner)] if np.isnan(inner.sum()) else inner.ravel()
+        if valid.size:
+            count += valid.size
+            square += float(np.einsum("i,i->", valid, valid))
+            minimum, maximum = min(minimum, float(valid.min())), max(maximum, float(valid.max()))
         # at the points that have a neighbour along x and along y
         dx = np.diff(z, axis=0)[:, :-1]
         dy = np.diff(z, axis=1)[:-1]

@@ -422,15 +422,15 @@ def estimates(line: LineContact, lubricant: Lubricant) -> list[FilmEstimate]:
     ]
     if line.material > 0.0:
         h_min = dowson_higginson(line.speed, line.material, line.load_number) * line.radius
-        of = "elastic-piezoviscous"
+        fitted = "elastic-piezoviscous"
         result.append(
             FilmEstimate(
                 name="Dowson-Higginson",
                 source="Proc. Inst. Mech. Eng. 182 (1968) 151",
-                regime=of,
+                regime=fitted,
                 h_c=math.nan,
                 h_min=h_min,
-                applies=here in {of, f"rigid to {of}"},
+                applies=here in {fitted, f"rigid to {fitted}"},
                 bounds=COMPARED,
                 outside=beyond,
                 note="0.5 to 2.8 % above converged solutions",

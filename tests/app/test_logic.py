@@ -267,9 +267,9 @@ def test_rough_contact_is_that_of_a_prediction(start):
     shown = dict(words.rough_rows(result, film))["film ratio Λ = h_min/σ"]
     assert shown.startswith(f"{h_min / sigma:.4g}: ")
     assert h_min != pytest.approx(prediction.summary["h_min_m"], rel=1e-3)
-    before, after, width, _, most = drawing.tiles(result.prediction)
+    before, after, width, _, top = drawing.tiles(result.prediction)
     assert before.shape == after.shape == (256, 256)
-    assert np.abs(before).max() == pytest.approx(most)
+    assert np.abs(before).max() == pytest.approx(top)
     assert width == pytest.approx(0.829)
     assert sum(drawing.octaves(result.prediction)["increase"]) == pytest.approx(
         prediction.mu_ratio - 1.0, abs=1e-6

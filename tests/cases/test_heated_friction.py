@@ -11,7 +11,7 @@ from pyehl.schema import summary_of
 
 FILM, WALL_1, WALL_2 = (f"temperature_rise{part}_K" for part in ("", "_wall_1", "_wall_2"))
 # Table 1 of Zhang et al. 2019, faster, with an Eyring stress of 5 MPa and the film of a Newtonian
-# flow; the temperature is that of the inlet of the data below
+# flow
 FAST = {
     "contact.load": 600.0,
     "contact.mean_velocity": 5.0,
@@ -31,7 +31,7 @@ FAST = {
 
 
 def test_agreement_with_another_program(solve, root):
-    """Another program has 0.0330, isothermal 0.0563; 69 K in the film, 35 K mean of the walls."""
+    """The reference program has 0.0330, isothermal 0.0563; 69 K in the film, 35 K mean of walls."""
     done = solve(None, 257, FAST, words=True)
     assert done["mu_isothermal"] == pytest.approx(0.0563, rel=6e-3)
     assert done["mu"] == pytest.approx(0.0330, rel=6e-3)
@@ -53,8 +53,7 @@ def test_agreement_with_another_program(solve, root):
     assert heat == pytest.approx(1e8, rel=0.2)
     share = round(100.0 * (1.0 - done["mu"] / done["mu_isothermal"]), -1)
     warmer = f"up to {done['temperature_rise_max_K']:.0f} K warmer than the inlet"
-    say = f"{warmer}, and friction is {share:.0f} % lower"
-    assert say in (root / "docs/theory/temperature.md").read_text(encoding="utf-8")
+    assert f"{warmer}, and friction is {share:.0f} % lower" in text
 
 
 @pytest.mark.parametrize(("srr", "mu"), [(0.03, 0.043), (1.0, 0.021)])
@@ -133,9 +132,9 @@ def test_no_heat_twice(solve):
     done = solve(None, 65, warm)
     assert done["inlet_viscosity_Pa_s"] < 0.04
     # the same film by an oil as thin as that of the inlet; but that is thin in the contact, too
-    film = {"lubricant.viscosity": done["inlet_viscosity_Pa_s"]}
+    viscosity = {"lubricant.viscosity": done["inlet_viscosity_Pa_s"]}
     z = {"lubricant.roelands_z": 2.2e-8 * 1.96e8 / (np.log(0.04) + 9.67)}
-    thin = solve(None, 65, FAST | film | z)
+    thin = solve(None, 65, FAST | viscosity | z)
     assert thin["H_c"] == pytest.approx(done["H_c"], rel=1e-9)
     assert done["mu_isothermal"] > 1.005 * thin["mu_isothermal"]
 

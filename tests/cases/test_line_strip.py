@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 from scipy.optimize import brentq
-from test_line import moes, roller
+from test_line import moes, si_line
 
 import pyehl
 from pyehl.theory.ellipse import ellipse
@@ -40,14 +40,14 @@ def test_amplitude_reduction(moes_m, wavelength, points):
 
 def test_strip_of_a_transverse_wave(tmp_path):
     """A map that is uniform across, on a strip, is the wave on one row."""
-    row = roller(129, **TRANSVERSE, **{"surface.amplitude": 0.01, "surface.wavelength_x": 1.0})
+    row = si_line(129, **TRANSVERSE, **{"surface.amplitude": 0.01, "surface.wavelength_x": 1.0})
     wave = pyehl.solve(row)
     unit = float(wave.film_scale_m)
     length = float(wave.hertz_radius_m)
     x = np.arange(64) / 64.0
     heights = np.repeat(0.01 * unit * np.cos(2.0 * np.pi * x)[:, np.newaxis], 8, axis=1)
     np.save(tmp_path / "wave.npy", heights)
-    strip = roller(
+    strip = si_line(
         129,
         **{
             "surface.kind": "map",
@@ -260,12 +260,12 @@ def test_fractal_surface_on_a_strip():
         "surface.shortest_wavelength": 3e-5,
         "time.steps": 6,
     }
-    result = pyehl.solve(roller(129), tile, check=False)
+    result = pyehl.solve(si_line(129), tile, check=False)
     b = float(result.hertz_radius_m)
     assert result.attrs["status"] == "not settled"
     assert int(result.points_y) * float(result.y_mesh) * b == pytest.approx(1.0e-4, rel=1e-9)
-    again = pyehl.solve(roller(129), {**tile, "solver.threads": 2}, check=False)
+    again = pyehl.solve(si_line(129), {**tile, "solver.threads": 2}, check=False)
     np.testing.assert_array_equal(result.P, again.P)
     other = {**tile, "second_surface.kind": "harmonic", "second_surface.wavelength_y": 0.51}
     with pytest.raises(pyehl.InputError, match="no common period across the motion"):
-        pyehl.solve(roller(129), other)
+        pyehl.solve(si_line(129), other)

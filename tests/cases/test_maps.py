@@ -41,7 +41,6 @@ def on_nodes(done: Any, z: np.ndarray, lengths: tuple[float, float], *, cut: boo
     nx, ny = z.shape
     c = np.fft.fft2(z - z.mean()) / (nx * ny)
     x, y = done.field("X") - 0.123, done.field("Y")
-    total = np.zeros((x.size, y.size), complex)
     periods = (lengths[0] / a, lengths[1] / a)
     kx, ky = np.fft.fftfreq(nx, 1 / nx), np.fft.fftfreq(ny, 1 / ny)
 
@@ -80,11 +79,11 @@ def test_heights_are_the_fourier_series(solve, tmp_path: Path, pixels, lengths):
     assert done.field("RR") == pytest.approx(expected, abs=3e-5 * np.abs(expected).max())
     # and the fraction that is omitted
     total = np.var(z)
-    kept = np.mean(on_variance(z, lengths, done))
+    kept = resolved_variance(z, lengths, done)
     assert done["variance_left_out"] == pytest.approx(1.0 - kept / total, abs=1e-12)
 
 
-def on_variance(
+def resolved_variance(
     z: np.ndarray, lengths: tuple[float, float], done: Any, nodes: float = 2.0
 ) -> float:
     """Variance of waves of more nodes per period than `nodes` (for more than two: or as many)."""
@@ -106,7 +105,7 @@ def test_unresolved_variance(solve, tmp_path: Path):
     lengths = (1.0e-3, 6.5e-4)
     size = {"surface.length_x": lengths[0], "surface.length_y": lengths[1]}
     done = solve(None, 129, REST | {"surface.file": f"'{tmp_path / 'z.npy'}'"} | size)
-    expected = 1.0 - on_variance(z, lengths, done, 8.0) / np.var(z)
+    expected = 1.0 - resolved_variance(z, lengths, done, 8.0) / np.var(z)
     assert 0.0 < expected < 1.0
     assert done["variance_unresolved"] == pytest.approx(expected, abs=1e-12)
 

@@ -93,11 +93,11 @@ def test_difference_vanishes_with_the_speed(dry):
     """The recorded difference falls with about the square root of the speed, on both grids."""
     rows = dry.read()
     for points in (257, 513):
-        mine = [row for row in rows if row["points"] == points]
-        logs = np.log([[row["mean_velocity"], row["rms"]] for row in mine])
-        assert len(mine) > 2
+        of_grid = [row for row in rows if row["points"] == points]
+        logs = np.log([[row["mean_velocity"], row["rms"]] for row in of_grid])
+        assert len(of_grid) > 2
         assert np.polyfit(*logs.T, 1)[0] == pytest.approx(0.53, abs=0.03)
-        assert mine[-1]["rms"] < 0.009
+        assert of_grid[-1]["rms"] < 0.009
 
 
 def test_misalignment_either_way_is_a_mirror_image():

@@ -372,11 +372,6 @@ def test_malformed_case(tmp_path: Path, capsys, monkeypatch, name, marked, optio
     assert [path.name for path in tmp_path.iterdir()] == ["case.nml"]
 
 
-# Keys without an effect, and those that only Python prepares or predicts
-BY_PYTHON = (
-    *("two expansions", "range upside down", "law of the prediction alone"),
-    *("spectrum of a feature", "crop backwards", "crop of nothing"),
-)
 # Faults in the text before any name, and in the operating point, whose quantity is named
 NAMELESS = (
     *("open quote", "unit with a slash", "no free volume", "a liquid without a volume"),
@@ -384,10 +379,7 @@ NAMELESS = (
 )
 
 
-@pytest.mark.parametrize(
-    ("name", "marked", "options", "parts"),
-    [pytest.param(*fault, id=fault[0]) for fault in FAULTS if fault[0] not in BY_PYTHON],
-)
+@pytest.mark.parametrize(("name", "marked", "options", "parts"), FAULTS, ids=[f[0] for f in FAULTS])
 def test_program_refuses_it(drive, tmp_path: Path, name, marked, options, parts):
     """Without line and column, but with the key or unknown name, and the expected values."""
     (tmp_path / "case.nml").write_bytes(place(marked)[0].encode())
@@ -402,8 +394,8 @@ def test_program_refuses_it(drive, tmp_path: Path, name, marked, options, parts)
         )
     what = str(reported.value).splitlines()[0].partition("error: ")[2]
     names = re.findall(r"[a-z]\w+(?=\.)|\b\w+_\w+|&\w+|'\w+'", what)
-    result = any(name.strip("&'").lower() in done.stderr.lower() for name in names)
-    assert result or not names or name in NAMELESS
+    named = any(name.strip("&'").lower() in done.stderr.lower() for name in names)
+    assert named or not names or name in NAMELESS
 
 
 def words_of(options: list[str]) -> list[str]:

@@ -72,10 +72,10 @@ def test_waves_beside_the_centre_line_on_the_page(root: Path, beside):
     folder = root / "docs" / "evidence" / "response"
     off = beside("response", "off_centre")
     table = np.loadtxt(folder / "off_centre.csv", delimiter=",", skiprows=1)
-    left = off.residuals(table)
+    residuals = off.residuals(table)
     (half, more) = (
         [
-            f"{np.sqrt(np.mean(left[(table[:, 0] == m) & (table[:, 3] == y)] ** 2)):.3f}"
+            f"{np.sqrt(np.mean(residuals[(table[:, 0] == m) & (table[:, 3] == y)] ** 2)):.3f}"
             for m in (1000.0, 500.0, 200.0)
         ]
         for y in (0.5, 0.625)

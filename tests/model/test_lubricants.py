@@ -132,11 +132,13 @@ def test_band_of_a_coefficient_that_was_not_given(root: Path):
     assert all(hot[name] == pytest.approx(cold[name], rel=0.04) for name in cold)
     data = pyehl.solve(Case.from_text(SHEET.format("")), LIGHT)
     note = str(data.attrs["pressure_viscosity_note"])
-    least, most = (100.0 * ((pick(cold.values()) / MINERAL_Z) ** 0.53 - 1.0) for pick in (min, max))
+    thinnest, thickest = (
+        100.0 * ((pick(cold.values()) / MINERAL_Z) ** 0.53 - 1.0) for pick in (min, max)
+    )
     band = f"Z = {min(cold.values()):.2f} to {max(cold.values()):.2f}"
-    assert f"for {band} the film is {-least:.0f} % thinner to {most:.0f} % thicker" in note
+    assert f"for {band} the film is {-thinnest:.0f} % thinner to {thickest:.0f} % thicker" in note
     assert (
-        f"alpha is an estimate ({least:.0f} to {most:+.0f} % of the film)"
+        f"alpha is an estimate ({thinnest:.0f} to {thickest:+.0f} % of the film)"
         in data.attrs["assessment"]
     )
 
@@ -288,8 +290,8 @@ def test_keys_given_with_a_name_take_precedence():
         pytest.approx(2.2359e-8, rel=1e-4),
     )
     constants = {f"lubricant.vogel_{k}": v for k, v in (("viscosity", 1e-4), ("b", 900), ("c", 95))}
-    ruled = of_case({"lubricant.name": "n100", **constants})
-    assert ruled.viscosity == pytest.approx(1e-4 * math.exp(900 / 135), rel=1e-12)
+    given = of_case({"lubricant.name": "n100", **constants})
+    assert given.viscosity == pytest.approx(1e-4 * math.exp(900 / 135), rel=1e-12)
     with pytest.raises(InputError, match=r"viscosity contradicts lubricant\.name"):
         of_case({"lubricant.name": "n100", "lubricant.viscosity": 0.1})
 

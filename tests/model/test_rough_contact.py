@@ -27,9 +27,9 @@ def test_film_of_second_order(contact, table_1):
     inside = np.where(points.inside, points.film, np.inf)
     change = np.zeros((*points.film.shape, 2), dtype=np.float32)
     change[..., 0] = 0.3 * points.film
-    one_film = points.sheared(change, points.smooth_film())
+    ratio = points.sheared(change, points.smooth_film())
     lost = 1.0 - 0.3 + 0.4 * 0.3**2
-    assert one_film == pytest.approx(1.0 / lost, rel=1e-4)
+    assert ratio == pytest.approx(1.0 / lost, rel=1e-4)
     missing = contact.minimum_film - contact.film.min()
     assert points.minimum == pytest.approx(lost * inside.min() + missing, abs=0.3 * missing)
     change[..., 0] = 1.5 * points.film
@@ -100,10 +100,10 @@ def test_the_smooth_film_moves_with_the_edge(contact, table_1):
     x, y = np.meshgrid(points.x, points.y, indexing="ij")
     outer = points.inside & (points.radius > rough_contact.OUTER)
     angle = np.arctan2(y, x)[outer]
-    share = 1.0 - np.interp(angle, angles, points.moved, period=2.0 * np.pi) / points.radius[outer]
+    factor = 1.0 - np.interp(angle, angles, points.moved, period=2.0 * np.pi) / points.radius[outer]
     expected = points.film.copy()
     film_at = scipy.interpolate.RegularGridInterpolator((contact.x, contact.y), contact.film)
-    expected[outer] = film_at((x[outer] * share, y[outer] * share))
+    expected[outer] = film_at((x[outer] * factor, y[outer] * factor))
     assert points.smooth_film() == pytest.approx(expected, rel=1e-9)
     assert np.abs(expected / points.film - 1.0).max() > 0.05
 

@@ -62,6 +62,7 @@ def test_tutorial(states, cases: Path):
         pyehl.predict(cases / "finish.nml", {"surface.rms_height": height}).summary
         for height in (1e-7, 4e-8)
     )
+    # the film at the low end of the band of an estimated alpha
     low = 1.0 - 0.17
     states(
         "docs/tutorial.md",
@@ -140,13 +141,13 @@ def test_limits(states, cases: Path):
 
 def test_constants_of_the_prediction(states):
     """Film breakdown, the film by the inlet, the pressure of oblique waves."""
-    ends, film, least = response.FILM_ENDS, response.INLET_FILM, response.QUADRATIC
+    ends, film, quadratic = response.FILM_ENDS, response.INLET_FILM, response.QUADRATIC
     states("docs/conventions.md", f"to first order, exceeds {ends:g} times the smooth film")
     states("docs/theory/prediction.md", f"loss of film exceeds {ends:g} times the smooth film")
     states(
         "docs/theory/prediction-response.md",
         f"thicker than to first order by ${film:g}\\,H_1^2/H$",
-        f"Where $H_1$ exceeds ${least:g}\\,H$",
+        f"Where $H_1$ exceeds ${quadratic:g}\\,H$",
         f"at $H_1 = {ends:g}\\,H$ the film breaks down",
         f"**Pressure.** It increases by ${response.INLET_PRESSURE:g}\\,P_0^2$",
     )

@@ -214,11 +214,12 @@ def test_cheapest_setting():
 
 
 def test_inconsistent_results_are_reported():
-    good = {"mu": 0.06, "mu_smooth": 0.05, "mu_ratio": 1.2, "mu_note": "", "contact_load_share": 0}
-    assert mixed.contradictions(good) == []
-    assert mixed.contradictions(good | {"mu_ratio": 1.3}) == ["mu = mu_smooth mu_ratio"]
-    lost = good | {"contact_load_share": None}
+    consistent = {"mu": 0.06, "mu_smooth": 0.05, "mu_ratio": 1.2, "mu_note": ""}
+    consistent |= {"contact_load_share": 0}
+    assert mixed.contradictions(consistent) == []
+    assert mixed.contradictions(consistent | {"mu_ratio": 1.3}) == ["mu = mu_smooth mu_ratio"]
+    lost = consistent | {"contact_load_share": None}
     assert "friction without a load share" in mixed.contradictions(lost)
     assert "no load share and no reason" in mixed.contradictions(lost)
-    assert "load share" in mixed.contradictions(good | {"contact_load_share": 1.1})
-    assert "not a number" in mixed.contradictions(good | {"mu_ratio": math.nan})
+    assert "load share" in mixed.contradictions(consistent | {"contact_load_share": 1.1})
+    assert "not a number" in mixed.contradictions(consistent | {"mu_ratio": math.nan})

@@ -220,12 +220,12 @@ def test_stated_errors_that_miss_are_counted():
     row = {"kind": "gear", "ellipticity": 9.0, "seconds": 2.0, "status": "converged"}
     row |= {"restarts": 1, "fine_status": "converged"}
     row |= {"H_c": 1.0, "H_c_error": 0.02, "H_min": 0.5, "H_min_error": 0.02}
-    good = row | {"H_c_fine": 1.01, "H_min_fine": 0.51}
-    bad = row | {"H_c_fine": 1.03, "H_min_fine": 0.51}
+    covered = row | {"H_c_fine": 1.01, "H_min_fine": 0.51}
+    missed = row | {"H_c_fine": 1.03, "H_min_fine": 0.51}
     unknown = row | {"H_c_fine": None, "H_min_fine": None, "fine_status": "diverged"}
     failed = row | {"H_c": None, "H_min": None, "H_c_fine": None, "H_min_fine": None}
     failed |= {"status": "diverged", "fine_status": None}
-    wide = machines.summary([good, bad, unknown, failed])[-2]
+    wide = machines.summary([covered, missed, unknown, failed])[-2]
     assert wide["contacts"] == "kappa > 4"
     assert (wide["drawn"], wide["converged"], wide["restarts"]) == (4, 3, 4)
     assert (wide["checked"], wide["h_c_covered"], wide["h_min_covered"]) == (2, 1, 2)
