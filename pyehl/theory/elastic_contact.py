@@ -67,9 +67,9 @@ def contact_pressures(
     # as if each node were alone
     guess = np.where(allowed, np.maximum(-gap, 0.0), 0.0) / float(compliance.kernel.max())
     first = start.pressure if start is not None and start.pressure.any() else guess
-    result = _solved(gap, allowed, compliance, scale, first)
+    result = iterated(gap, allowed, compliance, scale, first)
     if result is None or result.pressure.sum() > load:
-        result = _solved(
+        result = iterated(
             gap, allowed, compliance, scale, guess * (load / guess.sum()), fixed_load=True
         )
         if result is not None and result.uniform < -DEPTH_TOLERANCE * scale:
@@ -77,7 +77,7 @@ def contact_pressures(
     return result
 
 
-def _solved(
+def iterated(
     gap: Array,
     allowed: Mask,
     compliance: Compliance,
@@ -86,7 +86,7 @@ def _solved(
     *,
     fixed_load: bool = False,
 ) -> SolidContact | None:
-    """Solve from a first guess; `fixed_load` keeps its sum; None: not solved."""
+    """Iterate from a first guess; `fixed_load` keeps its sum; None: not solved."""
     total, lift = float(pressure.sum()), compliance(pressure)
     step, last, restart = np.zeros_like(gap), 1.0, True
     for _ in range(MAX_ITERATIONS):

@@ -369,12 +369,12 @@ def test_contact_sustains_no_more_than_it_can(monkeypatch, share):
     compliance = Compliance(np.divide(1.0, q, out=np.zeros_like(q), where=q > 0.0), (60, 60))
     free = contact_pressures(gap, compliance, 0.1, math.inf)
     assert free is not None
-    solved = elastic_contact._solved
+    solved = elastic_contact.iterated
 
     def failing(*arguments, fixed_load=False):
         return solved(*arguments, fixed_load=True) if fixed_load else None
 
-    monkeypatch.setattr(elastic_contact, "_solved", failing)
+    monkeypatch.setattr(elastic_contact, "iterated", failing)
     load = share * float(free.pressure.sum())
     result = contact_pressures(gap, compliance, 0.1, load)
     if share > 1.0:
