@@ -10,6 +10,8 @@ module ehl_contact
    private
    public :: contact_t
 
+   real(dp), parameter :: wide = 4.0_dp
+
    type :: contact_t
       !> Integrals over the contact are in a^2, or for a line contact in b
       integer :: dimensions = 2
@@ -25,6 +27,7 @@ module ehl_contact
    contains
       procedure :: is_round
       procedure :: is_even
+      procedure :: is_wide
       procedure :: is_line
       procedure :: is_roller
       procedure :: growth
@@ -51,6 +54,12 @@ contains
       class(contact_t), intent(in) :: self
       is_even = .not. abs(self%angle) > 0.0_dp
    end function is_even
+
+   !> Whether it is an ellipse more than four times as wide as long along the motion
+   pure logical function is_wide(self)
+      class(contact_t), intent(in) :: self
+      is_wide = self%reach(2) > wide*self%reach(1) .and. .not. (self%is_line() .or. self%is_roller())
+   end function is_wide
 
    !> Whether it is an infinite line contact, whose values are per unit length
    pure logical function is_line(self)

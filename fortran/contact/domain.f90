@@ -17,6 +17,7 @@ module ehl_domain
    use ehl_line_domain, only: line_domain_error, line_ends
    use ehl_moes, only: operating_t
    use ehl_scales, only: circle_factor
+   use ehl_wide_inlet, only: gap_of_row => dry_gap, inlet_integral
    implicit none (type, external)
    private
    public :: domain_t, flooded_by_default, flooding_layer, needed_domain, domain_error, ratio_error
@@ -28,15 +29,19 @@ module ehl_domain
 
    !> Maximum relative error of H_c due to a default domain
    real(dp), parameter :: tolerance = 0.002_dp
-   !> From this M on border and domain are those of Zhang et al. 2019, unless the case states otherwise or the contact is wider
-   !> than this ratio, where P = 0 on the border would change the film by several per cent
-   real(dp), parameter :: first_usual = 500.0_dp, too_wide = 4.0_dp
+   !> From this M on border and domain are those of Zhang et al. 2019, unless the case states otherwise or the contact is wide
+   !> (is_wide), where P = 0 on the border would change the film by several per cent
+   real(dp), parameter :: first_usual = 500.0_dp
    !> Flooded border. Thick films: error of the load due to sides and inlet, over lambda_bar s^2/r^3 with the length
    !> s = (2 H_c)^(1/2); maximum and minimum sensitivity of the film to load, and the M at half of the maximum. Thin films:
    !> error due to an inlet of 2.5 a, its power of s, and the maximum of s for that. Error of H_min over that of H_c.
    real(dp), parameter :: load_by_sides = 0.025_dp, load_by_inlet = 0.05_dp, by_load = 2.0_dp, min_by_load = 0.5_dp, &
                           half_by_load = 8.0_dp, by_inlet = 0.0042_dp, inlet_power = 1.3_dp, thin = 0.75_dp, &
                           minimum_over_central = 1.5_dp
+   !> Flooded border of a wide contact: error of H_c over s and over s^2.5, with s the reduced pressure at the border over its
+   !> limit 1/alpha_bar; the first, due to flow across the motion, is in proportion to D. Smallest width of a short domain.
+   !> Upper limits of 0.16 D s and 0.053 s^2.5 in 28 random contacts (docs/evidence/machines/inlets.csv)
+   real(dp), parameter :: by_side_flow = 0.3_dp, by_inlet_pressure = 0.06_dp, short_widths(3) = [2.5_dp, 3.0_dp, 4.0_dp]
    !> P = 0: errors of H_c due to inlet and sides, and the additional error of H_min due to the sides, over q; film below which
    !> the error due to the inlet is larger, and its power of the film
    real(dp), parameter :: of_inlet = 0.46_dp, of_sides = 0.06_dp, of_sides_at_minimum = 0.15_dp, &
@@ -74,18 +79,21 @@ contains
       type(operating_t), intent(in) :: point
       flooded_by_default = .false.
       if (contact%is_roller()) return
-      flooded_by_default = contact%is_line() .or. point%round_m < first_usual .or. elongation(contact) > too_wide
+      flooded_by_default = contact%is_line() .or. point%round_m < first_usual .or. contact%is_wide()
    end function flooded_by_default
 
    !> The domain of a contact: that of Zhang et al. 2019, with other sides around an ellipse; with a flooded border a domain of
    !> that shape that increases with the film; of a line or a roller from ehl_line_domain. Around a round contact it is square.
    !> X = 0 is a node of every grid of 32 n + 1 nodes.
-   pure function needed_domain(contact, point, flooded) result(domain)
+   pure function needed_domain(contact, point, flooded, short) result(domain)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
       logical, intent(in) :: flooded
+      !> Whether the domain of a flooded wide contact is as short as its error allows
+      logical, intent(in) :: short
       type(domain_t) :: domain
       real(dp) :: error(2), wanted, unit, width, ends(2)
+      integer :: k
 
       if (contact%is_line()) then
          ends = line_ends(contact, point)
@@ -105,14 +113,26 @@ contains
       domain%inlet = domain%inlet*contact%reach(1)
       domain%outlet = domain%outlet*contact%reach(1)
       wanted = 4.0_dp
-      do while (flooded)
-         error = domain_error(contact, point, domain, flooded)
-         if (.not. error(1) > tolerance) exit
-         wanted = 1.02_dp*wanted
-         unit = 0.32_dp*10.0_dp**max(0, floor(log10(0.25_dp*wanted)))
-         width = unit*ceiling(wanted/unit)
-         domain = domain_t(-0.625_dp*width, 0.375_dp*width, 0.5_dp*width*sides_over_round(contact))
-      end do
+      if (flooded .and. short .and. contact%is_wide()) then
+         k = 0
+         do
+            ! 2.5, 3, 4, 5, 6, 8, ...: grids of 5, 3 and 4 times 2^n intervals have the same mesh sizes
+            width = short_widths(1 + mod(k, 3))*2.0_dp**(k/3)
+            domain = domain_t(-0.5625_dp*width, 0.4375_dp*width, max(2.0_dp, 0.5_dp*width)*sides_over_round(contact))
+            error = domain_error(contact, point, domain, flooded)
+            if (.not. error(1) > tolerance) exit
+            k = k + 1
+         end do
+      else
+         do while (flooded)
+            error = domain_error(contact, point, domain, flooded, rigid=.true.)
+            if (.not. error(1) > tolerance) exit
+            wanted = 1.02_dp*wanted
+            unit = 0.32_dp*10.0_dp**max(0, floor(log10(0.25_dp*wanted)))
+            width = unit*ceiling(wanted/unit)
+            domain = domain_t(-0.625_dp*width, 0.375_dp*width, 0.5_dp*width*sides_over_round(contact))
+         end do
+      end if
       domain%side = min(domain%side, side_of_wide(contact, point, flooded), side_of_narrow(contact, point))
    end function needed_domain
 
@@ -165,15 +185,18 @@ contains
    end function sides_over_round
 
    !> Upper estimates of the relative errors of H_c and H_min due to the domain, relative to the flooded contact; 1 or more: unknown
-   pure recursive function domain_error(contact, point, domain, flooded, starved) result(error)
+   pure recursive function domain_error(contact, point, domain, flooded, starved, rigid) result(error)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
       type(domain_t), intent(in) :: domain
       logical, intent(in) :: flooded
       !> Whether the inlet border is the position of the meniscus, so that only the sides have an error; absent: false
       logical, intent(in), optional :: starved
+      !> Whether the bodies count as rigid beyond the border, as in contacts that are not wide; absent: false
+      logical, intent(in), optional :: rigid
       real(dp) :: error(2)
       real(dp) :: at_sides(2), film, length, whole, inlet, load, sides, side, wide, width
+      logical :: line_like
 
       if (present(starved)) then
          if (starved) then
@@ -199,8 +222,15 @@ contains
             length = sqrt(2.0_dp*film)
             load = lambda_bar*length**2*max(min_by_load, by_load/(1.0_dp + (point%round_m/half_by_load)**2))
             at_sides = load*load_by_sides/side**3*[1.0_dp, minimum_over_central]
-            error = load*load_by_inlet/abs(domain%inlet)**3 + &
-                   by_inlet*min(max_wide, max(1.0_dp, width))*min(length, thin)**inlet_power*(2.5_dp/abs(domain%inlet))**5
+            error = load*load_by_inlet/abs(domain%inlet)**3
+            line_like = contact%is_wide()
+            if (present(rigid)) line_like = line_like .and. .not. rigid
+            if (line_like) then
+               error = error + wide_inlet_error(contact, point, -domain%inlet, film)
+            else
+               error = error + by_inlet*min(max_wide, max(1.0_dp, width))*min(length, thin)**inlet_power &
+                       *(2.5_dp/abs(domain%inlet))**5
+            end if
             error(2) = minimum_over_central*error(1)
          else
             whole = pressure_gain(1.0_dp, film)
@@ -221,6 +251,20 @@ contains
       error = error + at_sides
    end function domain_error
 
+   !> Relative error of H_c due to the approximate pressure at the inlet border of a wide contact; 1: unknown
+   pure real(dp) function wide_inlet_error(contact, point, x, film) result(error)
+      class(contact_t), intent(in) :: contact
+      type(operating_t), intent(in) :: point
+      !> Distance of the inlet from the centre; H_c
+      real(dp), intent(in) :: x, film
+      real(dp) :: s
+
+      error = 1.0_dp
+      if (.not. x > 1.0_dp) return
+      s = point%speed_parameter*(1.0_dp + point%alpha_bar)*inlet_integral(x, film + gap_of_row(x, 1.0_dp), film, 1.0_dp)
+      if (s < 1.0_dp) error = by_side_flow*contact%radius_ratio*s + by_inlet_pressure*s**2.5_dp
+   end function wide_inlet_error
+
    !> Thickness of the oil layer that fills the gap downstream of a position X < 0
    pure real(dp) function flooding_layer(contact, point, x) result(layer)
       class(contact_t), intent(in) :: contact
@@ -231,7 +275,7 @@ contains
       r = max(1.0_dp, -x/contact%reach(1))
       layer = contact%film_formula(point%moes_m, point%moes_l)
       if (contact%is_line()) then
-         layer = layer + 0.5_dp*(r*sqrt(r**2 - 1.0_dp) - log(r + sqrt(r**2 - 1.0_dp)))
+         layer = layer + gap_of_row(r, 1.0_dp)
       else
          layer = layer + dry_gap(r)
       end if

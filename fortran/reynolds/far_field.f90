@@ -12,7 +12,9 @@ module ehl_far_field
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp, pi
    use ehl_level, only: level_t
+   use ehl_flow, only: dir_x
    use ehl_line_inlet, only: set_line_border
+   use ehl_wide_inlet, only: inlet_integral, reduced_to_real
    implicit none (type, external)
    private
    public :: far_field_t
@@ -29,6 +31,9 @@ module ehl_far_field
       private
       !> Whether the contact is an infinite line (see ehl_line_inlet)
       logical :: line = .false.
+      !> Whether the contact is so wide that its inlet is that of a line contact in each row; half its width
+      logical :: wide = .false.
+      real(dp) :: half_width = 1.0_dp
       !> D = R_x/R_y; angle at which the film ruptures; amplitude of u
       real(dp) :: radius_ratio = 1.0_dp, rupture = round_rupture, amplitude = round_amplitude
       !> u at equal steps of the angle; not allocated in a round contact
@@ -36,6 +41,7 @@ module ehl_far_field
    contains
       procedure :: setup
       procedure :: set_border
+      procedure, private :: set_wide_inlet
       procedure, private :: pressure
       procedure, private :: around
       procedure, private :: opening
@@ -52,6 +58,8 @@ contains
       integer :: n
 
       self%line = contact%is_line()
+      self%wide = contact%is_wide()
+      self%half_width = contact%reach(2)
       self%radius_ratio = contact%radius_ratio
       if (contact%is_round() .or. self%line) return
       if (allocated(self%u)) deallocate (self%u)
@@ -105,10 +113,37 @@ contains
                level%p(i, j) = speed_parameter*self%pressure(grid%x(i), grid%y(j), level%h(i, j))
             end do
          end do
+         if (self%wide) call self%set_wide_inlet(level, speed_parameter)
          j = 1 + nint((0.0_dp - grid%y0)/grid%hy)
          level%load = load - speed_parameter*self%load_beyond(grid, level%h(1, j) - 0.5_dp*grid%x0**2)
       end associate
    end subroutine set_border
+
+   !> Set the pressure on the inlet border within the width of the dry contact: that of a line contact times the ratio of the
+   !> pressures far away, which is the effect of the flow across the motion
+   subroutine set_wide_inlet(self, level, speed_parameter)
+      class(far_field_t), intent(in) :: self
+      type(level_t), intent(inout) :: level
+      !> lambda_bar
+      real(dp), intent(in) :: speed_parameter
+      real(dp) :: x, y, width, flow, ratio, log_viscosity(1), slope(1)
+      integer :: i, j
+
+      call level%lubricant%log_viscosity([0.0_dp], log_viscosity, slope)
+      associate (grid => level%grid)
+         i = 1 + nint(-grid%x0/grid%hx)
+         x = abs(grid%x0)
+         do j = 1, grid%ny
+            y = grid%y(j)
+            width = 1.0_dp - (y/self%half_width)**2
+            if (grid%is_border(j) .or. .not. (width > 0.0_dp .and. x**2 > width)) cycle
+            flow = level%mass_content(i, j) - level%flow%eps(i, j, dir_x)*(level%p(i + 1, j) - level%p(i - 1, j)) &
+                   /(2.0_dp*grid%hx)
+            ratio = 0.75_dp*hypot(1.0_dp, y/x)*self%around(atan2(abs(y), x))
+            level%p(1, j) = reduced_to_real(speed_parameter*ratio*inlet_integral(x, level%h(1, j), flow, width), slope(1))
+         end do
+      end associate
+   end subroutine set_wide_inlet
 
    !> Pressure far from the contact over lambda_bar: r/(4 H^2) f^2 g
    pure real(dp) function pressure(self, x, y, film)

@@ -12,6 +12,7 @@ module ehl_friction_results
    use ehl_reason, only: friction_above_limit, friction_no_size, friction_no_smooth, friction_not_converged, friction_of_rough, &
                          friction_rolling, friction_rolling_line, friction_with_heat, reason_none
    use ehl_wall_heat, only: heat_source
+   use ehl_wide_inlet, only: inlet_moment
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
@@ -116,6 +117,9 @@ contains
       type(friction_results_t), intent(inout) :: found
 
       found%rolling_moment = rolling_moment(grid, p, h)
+      if (run%plan%flooded .and. run%plan%contact%is_wide()) then
+         found%rolling_moment = found%rolling_moment + moment_beyond(run%plan, grid, p, h)
+      end if
       if (.not. speed > 0.0_dp) return
       found%shear_rate = speed/run%plan%scales%film*mean_inverse(run%plan%contact, grid, h)
       found%shear_stress = max_stress(run%plan, p, h)
@@ -134,6 +138,25 @@ contains
          rolling_moment = rolling_moment + 0.25_dp*grid%weight(j)/grid%hx*sum((h(:n - 1, j) + h(2:, j))*(p(2:, j) - p(:n - 1, j)))
       end do
    end function rolling_moment
+
+   !> The same integral beyond the inlet border of a flooded wide contact, in the rows within the width of the dry contact
+   pure real(dp) function moment_beyond(plan, grid, p, h)
+      class(plan_t), intent(in) :: plan
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: p(:, :), h(:, :)
+      real(dp) :: width, log_viscosity(1), slope(1)
+      integer :: i, j
+
+      call plan%lubricant%log_viscosity([0.0_dp], log_viscosity, slope)
+      moment_beyond = 0.0_dp
+      i = 1 + nint(-grid%x0/grid%hx)
+      do j = 1, grid%ny
+         width = 1.0_dp - (grid%y(j)/plan%contact%reach(2))**2
+         if (.not. (width > 0.0_dp .and. p(1, j) > 0.0_dp .and. grid%x0**2 > width)) cycle
+         moment_beyond = moment_beyond + 0.5_dp*grid%weight(j)/grid%hx* &
+                         inlet_moment(abs(grid%x0), h(1, j), h(i, j), width, p(1, j), slope(1))
+      end do
+   end function moment_beyond
 
    !> Mean of 1/H over the dry contact
    pure real(dp) function mean_inverse(contact, grid, h)

@@ -1,0 +1,75 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The inlet of a flooded wide contact beyond the border of its domain. In each row it is that of a line contact, with the
+!> reduced pressure I and the gap G of the dry contact, whose half width w in the row is a sqrt(1 - Y^2/(kappa a)^2):
+!>
+!>    dI/dX = lambda_bar (H - q)/H^3,   H(X) = H_1 + G(X) - G(X_1),
+!>    G = (X sqrt(X^2 - w^2) - w^2 arcosh(X/w))/2 (Johnson 1985, eq. 4.42),   P = -ln(1 - alpha_bar I)/alpha_bar
+!>
+!> with X > 0 against the motion and the border at X_1.
+module ehl_wide_inlet
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: dry_gap, inlet_integral, inlet_moment, reduced_to_real
+
+   !> Gauss-Legendre rule on [0, 1], six points; exact to 1e-5 for X_1 > 1.3 w
+   integer, parameter :: points = 6
+   real(dp), parameter :: offset(3) = 0.5_dp*[0.9324695142031521_dp, 0.6612093864662645_dp, 0.2386191860831969_dp], &
+                          share(3) = 0.5_dp*[0.1713244923791704_dp, 0.3607615730481386_dp, 0.4679139345726910_dp], &
+                          node(points) = 0.5_dp + [-offset, offset], weight(points) = [share, share]
+
+contains
+
+   !> Integral of (H - q)/H^3 beyond the border
+   pure real(dp) function inlet_integral(x, film, flow, width) result(total)
+      !> X_1; H_1; q; w^2
+      real(dp), intent(in) :: x, film, flow, width
+      real(dp) :: at, h
+      integer :: k
+
+      total = 0.0_dp
+      do k = 1, points
+         at = x/node(k)
+         h = film + (dry_gap(at, width) - dry_gap(x, width))
+         total = total + weight(k)*(h - flow)/h**3*at/node(k)
+      end do
+   end function inlet_integral
+
+   !> Integral of H dP/dX beyond the border, from the pressure at the border, which sets the scale of I
+   pure real(dp) function inlet_moment(x, film, flow, width, pressure, alpha) result(total)
+      !> As in inlet_integral; P at the border, alpha_bar
+      real(dp), intent(in) :: x, film, flow, width, pressure, alpha
+      real(dp) :: at, h, scale
+      integer :: k
+
+      scale = pressure
+      if (alpha > 0.0_dp) scale = (1.0_dp - exp(-alpha*pressure))/alpha
+      scale = scale/inlet_integral(x, film, flow, width)
+      total = 0.0_dp
+      do k = 1, points
+         at = x/node(k)
+         h = film + (dry_gap(at, width) - dry_gap(x, width))
+         total = total + weight(k)*scale*(h - flow)/h**2*at/node(k)/(1.0_dp - alpha*scale*inlet_integral(at, h, flow, width))
+      end do
+   end function inlet_moment
+
+   !> G at a distance x > w from the centre; width: w^2 > 0
+   elemental real(dp) function dry_gap(x, width)
+      real(dp), intent(in) :: x, width
+      real(dp) :: root
+
+      root = sqrt(x**2 - width)
+      dry_gap = 0.5_dp*(x*root - width*log((x + root)/sqrt(width)))
+   end function dry_gap
+
+   !> P of a reduced pressure at a viscosity that increases as exp(alpha_bar P). The reduced pressure itself where it is not below
+   !> 1/alpha_bar: the domain is then far too small (domain_error in contact/domain.f90).
+   elemental real(dp) function reduced_to_real(reduced, alpha) result(p)
+      real(dp), intent(in) :: reduced
+      !> alpha_bar
+      real(dp), intent(in) :: alpha
+
+      p = reduced
+      if (alpha*reduced > 0.0_dp .and. alpha*reduced < 1.0_dp) p = -log(1.0_dp - alpha*reduced)/alpha
+   end function reduced_to_real
+end module ehl_wide_inlet
