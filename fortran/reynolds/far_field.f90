@@ -6,12 +6,12 @@
 !> is (f^3 g')' - 9 f^3 g = -8 cos(angle) with the solution g = 4 cos(angle)/((3 + 2 D) f^2) + amplitude u(angle), (f^3 u')' = 9 f^3
 !> u; in a round contact f = 1 and u = cosh(3 angle). The first term is that of Kapitza (1955), exact with r/(4 H^2) in place of
 !> 1/(r^3 f^2) also where H = c + r^2 f/2; with the second term g and g' vanish where the film ruptures. Further terms decay with
-!> the sixth power of the distance.
+!> the sixth power of the distance. In the rows of a wide contact the inlet border has the pressure of ehl_wide_inlet.
 module ehl_far_field
    use ehl_contact, only: contact_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp, pi
-   use ehl_level, only: level_t
+   use ehl_level, only: cavity_pressure, level_t
    use ehl_flow, only: dir_x
    use ehl_line_inlet, only: set_line_border
    use ehl_wide_inlet, only: inlet_integral, reduced_to_real
@@ -140,7 +140,9 @@ contains
             flow = level%mass_content(i, j) - level%flow%eps(i, j, dir_x)*(level%p(i + 1, j) - level%p(i - 1, j)) &
                    /(2.0_dp*grid%hx)
             ratio = 0.75_dp*hypot(1.0_dp, y/x)*self%around(atan2(abs(y), x))
-            level%p(1, j) = reduced_to_real(speed_parameter*ratio*inlet_integral(x, level%h(1, j), flow, width), slope(1))
+            ! in the first cycles the flow may exceed the film at the border
+            level%p(1, j) = max(cavity_pressure, reduced_to_real(speed_parameter*ratio* &
+                                                                 inlet_integral(x, level%h(1, j), flow, width), slope(1)))
          end do
       end associate
    end subroutine set_wide_inlet

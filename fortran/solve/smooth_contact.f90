@@ -39,8 +39,8 @@ module ehl_smooth_contact
    real(dp), parameter :: small_drift = 1.0e-3_dp
    !> Cycles of an ellipse on a grid after which its algebraic error may be larger by the following factor; the stated errors
    !> contain it
-   integer, parameter :: stalls_after = 8
-   real(dp), parameter :: stalled_accuracy = 5.0_dp
+   integer, parameter :: lenient_after = 8
+   real(dp), parameter :: lenient_factor = 5.0_dp
 
    !> Record of the cycles of a level, used to reject failed ones
    type :: guard_t
@@ -283,7 +283,7 @@ contains
       type(steady_options_t) :: options
 
       options = self%options
-      if (self%is_ellipse() .and. self%cycles >= stalls_after) options%accuracy = stalled_accuracy*options%accuracy
+      if (self%is_ellipse() .and. self%cycles >= lenient_after) options%accuracy = lenient_factor*options%accuracy
    end function stopping_options
 
    !> Whether only the load of a roller drifts, as coarse grids change its ends and relaxation reverses that. The load is then

