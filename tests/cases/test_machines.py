@@ -55,7 +55,7 @@ def test_ball_bearing(root: Path, drive, tmp_path: Path):
     same(texts(page), f"{report(sheet)}\n{run.stdout}")
     result = summary_of(pyehl.load(tmp_path / "out"))
     text = page.read_text(encoding="utf-8")
-    assert f"| solved on 257 × 833 nodes | {row_of(text)} |" in text
+    assert f"| solved on 257 × 1281 nodes | {row_of(text)} |" in text
     unit = result["film_scale_m"] * 1e9
     films = [result[f"{name}_extrapolated"] * unit for name in ("H_c", "H_min")]
     assert f"| {films[0]:.1f} nm | {films[1]:.1f} nm |" in text
