@@ -14,7 +14,7 @@ from pyehl.prediction.mixed_lubrication import TOUCHING_FILM_ERROR
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transition import lift_off
 
-BEFORE = "deviation_before_percent"
+NOW, BEFORE = "deviation_percent", "deviation_before_percent"
 ADDED = ("k040c", "k040d", "k050b", "k350", "k040e", "k060b")
 
 
