@@ -58,7 +58,7 @@ BORDER = (
 )
 # Inlets of wide contacts on cells of one size [a], the first one is the reference; seed, contacts
 INLETS = (-4.5, -2.5, -2.0, -1.75, -1.5, -1.375)
-INLET_SEED, INLET_DRAWN, INLET_MESH = 41, 30, 1.0 / 64
+INLET_SEED, INLET_DRAWN, INLET_MESH = 41, 25, 1.0 / 64
 INLET = (
     *("number", "ellipticity", "moes_m", "moes_l", "alpha_bar", "x_inlet", "points", "points_y"),
     *("status", "H_c", "H_min", "H_c_error_domain", "H_min_error_domain"),
