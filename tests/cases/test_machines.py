@@ -251,7 +251,7 @@ def test_bad_input_has_place_and_remedy(text: str, place: str, message: str, rem
     [
         ({"contact.moes_m": 5000.0}, 513),
         ({"contact.moes_m": 5300.0}, 1025),
-        # M by R_x; the equivalent M of the round contact is a fifth of it, and the domain is 2.5 a long
+        # M by R_x; that of the round contact is a fifth of it, and the domain is 2.5 a long
         ({"contact.moes_m": 20000.0, "contact.radius_ratio": 0.04}, 321),
         ({"contact.moes_m": 100000.0, "contact.radius_ratio": 0.04}, 641),
         ({"contact.moes_m": 9000.0, "grid.points": 257}, 257),

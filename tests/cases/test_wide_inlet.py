@@ -21,7 +21,7 @@ def on_domain(solve, point, inlet: float, cells: int, keys=None):
     [((8000.0, 6.0), 64, 4e-4), ((2000.0, 8.0), 64, 1e-3), ((600.0, 8.0), 32, 2e-3)],
 )
 def test_film_and_moment_hardly_depend_on_the_inlet(solve, point, cells, most):
-    """With an inlet of 1.5 a the films are those with 4.5 a, and the stated errors cover the rest."""
+    """With an inlet of 1.5 a films are those with 4.5 a, and stated errors cover the rest."""
     far = on_domain(solve, point, 4.5, cells)
     near = on_domain(solve, point, 1.5, cells)
     for name in ("H_c", "H_min"):
@@ -32,7 +32,7 @@ def test_film_and_moment_hardly_depend_on_the_inlet(solve, point, cells, most):
 
 
 def test_default_domain_is_short():
-    """Its length, 2.5 a in a thin film, grows with the film; with a sharp spike it is 4 a or more."""
+    """It is 2.5 a long in a thin film, longer in a thick one, 4 a or more with a sharp spike."""
     lengths = []
     for moes_m, moes_l in ((20000.0, 6.0), (2000.0, 6.0), (200.0, 6.0), (5000.0, 20.0)):
         keys = {"contact.moes_m": moes_m, "contact.moes_l": moes_l, "surface.kind": "smooth"}
