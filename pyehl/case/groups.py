@@ -224,9 +224,9 @@ class Grid:
         513,
         "[17, 4097]",
         "nodes along X: an even number up to 32, times a power of 2, plus 1; default 1025 in a "
-        "smooth contact where the expected error of H_c on 513 exceeds 5 %; 257 or 385 in a "
-        "smooth, steady, flooded contact with kappa > 4 and no boundary film where the error on "
-        "that grid is at most 0.5 %",
+        "smooth contact where the expected error of H_c on 513 exceeds 5 %; in a smooth, steady, "
+        "flooded contact with kappa > 4 and no boundary film 128 per a up to 4 a, fewer (161 to "
+        "385) where this error is at most 0.5 %",
     )
     points_y: int = whole(
         0,
