@@ -204,7 +204,7 @@ sp | mu_note | | effects that mu includes and neglects
 sp | flash_temperature_K | K | maximum flash temperature rise (Tian & Kennedy), at mu
 sp | shear_rate_mean_per_s | 1/s | mean shear rate of the smooth contact
 sp | shear_stress_max_Pa | Pa | maximum shear stress of the smooth contact
-s | rolling_moment | p_h a^3 | integral of H/2 dP/dX, smooth contact, with the inlet beyond a flooded border if kappa > 4; of a line in p_h a^2
+s | rolling_moment | p_h a^3 | int H/2 dP/dX, if kappa > 4 of the whole inlet; line: p_h a^2
 s | rolling_moment_N_m | N m | R times the integral of h/2 dp/dx, smooth contact
 s | rolling_moment_N | N | rolling moment of a line contact, per length
 spt | shear_law | | law of the shear stress

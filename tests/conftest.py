@@ -53,7 +53,7 @@ def workers_wait_for_later_tests() -> None:
     """Keep the worker processes of a study: to start one takes a second of imports."""
     from pyehl.studies import pool
 
-    pool.KEPT = 3600
+    pool.IDLE_TIMEOUT = 3600
 
 
 @pytest.fixture(scope="session")

@@ -54,7 +54,7 @@ contains
       !> Duty: largest half lengths of the contact along X and Y over those of the case; whether the flow reverses
       real(dp), intent(in) :: widening(2)
       logical, intent(in) :: reverses
-      !> Whether a wide contact may have fewer nodes: it is steady and flooded, without a boundary film
+      !> Whether a wide contact may have a shorter domain and fewer nodes: it is steady and flooded, without a boundary film
       logical, intent(in) :: may_reduce
       type(domain_t) :: domain
       logical :: blunt, sharp

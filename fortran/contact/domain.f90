@@ -39,8 +39,8 @@ module ehl_domain
                           half_by_load = 8.0_dp, by_inlet = 0.0042_dp, inlet_power = 1.3_dp, thin = 0.75_dp, &
                           minimum_over_central = 1.5_dp
    !> Flooded border of a wide contact: error of H_c over D s, due to flow across the motion, and over s^2.5, with s the reduced
-   !> pressure at the border over its limit 1/alpha_bar. The sum covers 81 of 86 differences in docs/evidence/machines/inlets.csv; the
-   !> others are of a contact with stated errors above 2.9 %, and one of 0.03 %; lengths of short domains
+   !> pressure at the border over its limit 1/alpha_bar; lengths of short domains. The sum covers 81 of 86 differences
+   !> in docs/evidence/machines/inlets.csv; one of the others is 0.03 %, the rest have stated errors above 2.9 %.
    real(dp), parameter :: by_side_flow = 0.3_dp, by_inlet_pressure = 0.06_dp, short_widths(3) = [2.5_dp, 3.0_dp, 4.0_dp]
    !> P = 0: errors of H_c due to inlet and sides, and the additional error of H_min due to the sides, over q; film below which
    !> the error due to the inlet is larger, and its power of the film

@@ -2,7 +2,7 @@
 !> The inlet of a flooded wide contact beyond the border of its domain. In each row it is that of a line contact, with the
 !> reduced pressure I and the gap G of the dry contact, whose half width w in the row is a sqrt(1 - Y^2/(kappa a)^2):
 !>
-!>    dI/dX = lambda_bar (H - q)/H^3,   H(X) = H_1 + G(X) - G(X_1),
+!>    dI/dX = -lambda_bar (H - q)/H^3,   H(X) = H_1 + G(X) - G(X_1),
 !>    G = (X sqrt(X^2 - w^2) - w^2 arcosh(X/w))/2,   P = -ln(1 - alpha_bar I)/alpha_bar
 !>
 !> with X > 0 against the motion, the border at X_1 and the film H_1 there. The flow q is that of the row at X = 0.
@@ -35,7 +35,8 @@ contains
       end do
    end function inlet_integral
 
-   !> Integral of H dP/dX beyond the border, from the pressure at the border, which sets the scale of I
+   !> Integral of H dP/dX along the motion beyond the border, from the pressure at the border, which sets the scale of I. q may be
+   !> the film at X = 0: compared with H beyond the border it is small.
    pure real(dp) function inlet_moment(x, film, flow, width, pressure, alpha) result(total)
       !> As in inlet_integral; P at the border, alpha_bar
       real(dp), intent(in) :: x, film, flow, width, pressure, alpha

@@ -101,7 +101,9 @@ def film(
 def rough(position: Position) -> Rough:
     """Predict the rough contact, or give the reason for a failure."""
     try:
-        return Rough(api.predict(position.case(FINE[0])))
+        made = api.predict(position.case(FINE[0]))
+        len(made.bands)  # the page shows them: they are computed here, not while it is drawn
+        return Rough(made)
     except (EhlError, OSError) as error:
         return Rough(None, str(error))
 

@@ -352,7 +352,11 @@ class Solver:
         "and for one row of nodes",
     )
     accuracy: float = real(
-        0.1, "-", "[1e-6, 1]", "required algebraic error as a share of the discretisation error"
+        0.1,
+        "-",
+        "[1e-6, 1]",
+        "required algebraic error as a share of the discretisation error; from 0.1 on an ellipse "
+        "without solid contact needs only 0.5 after eight cycles",
     )
     max_cycles: int = whole(
         30,

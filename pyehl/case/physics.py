@@ -99,8 +99,8 @@ def grid_defaults(
     domain is symmetric.
 
     Smooth surfaces have twice as many nodes along X if the film would otherwise be inaccurate. A
-    wide contact that is steady and flooded, without a boundary film, has fewer nodes if the film
-    remains accurate.
+    wide contact that is steady and flooded, without a boundary film, has a shorter domain and fewer
+    nodes if the film remains accurate.
     """
     smooth = settings.surface.kind == settings.second_surface.kind == "smooth"
     oil = settings.lubricant

@@ -181,7 +181,7 @@ class Lubricant:
             np.log(power, out=power)
             power *= self.roelands_z
             np.exp(power, out=power)
-            if warmer.any():
+            if warmer.ndim > 0 or warmer.any():
                 power = np.asarray(power * np.exp(-s0 * np.log(1.0 + warmer / above)))
         power -= 1.0
         power *= factor

@@ -91,7 +91,7 @@ def test_positions_together_or_one_by_one(model):
     assert third.max_increase == contact.max_increase
 
 
-def testfilm_and_pressure_by_formula(model):
+def test_film_and_pressure_by_formula(model):
     """To the bit, also where more than 0.6 of the film is lost."""
     contact = model.rough_contact(model.components())
     change = 8.0 * contact.change((5, 0))
