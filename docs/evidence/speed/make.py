@@ -233,7 +233,7 @@ def predictions() -> list[str]:
         for row in table("predictions")
     ]
     return lines(
-        "| prediction | units | of these smooth contact | of these bands of wavelengths |", result
+        "| prediction | units | for the smooth contact | for the bands |", result
     )
 
 
