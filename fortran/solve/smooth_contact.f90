@@ -38,9 +38,9 @@ module ehl_smooth_contact
    !> spike the load error may stall at 2e-4 while the films hardly change (kappa = 10, L = 26); scaling is allowed only where it
    !> changes the films by a quarter of their allowed errors.
    integer, parameter :: drifts_after = 6
-   real(dp), parameter :: small_drift = 1.0e-3_dp
-   !> Cycles of an ellipse on a grid after which its algebraic error may be this share of the discretisation error instead of the
-   !> usual one, unless a smaller one is required; the stated errors contain it
+   real(dp), parameter :: small_drift = 1.0e-3_dp, small_narrow_drift = 1.0e-4_dp
+   !> Cycles of a wide contact on a grid after which its algebraic error may be this share of the discretisation error instead of
+   !> the usual one, unless a smaller one is required; the stated errors contain it
    integer, parameter :: lenient_after = 8
    real(dp), parameter :: lenient_accuracy = 0.5_dp, usual_accuracy = 0.1_dp
 
@@ -270,7 +270,9 @@ contains
 
       error = abs(self%m%load_error)
       limit = self%rule%small_load_error
-      if (self%is_ellipse() .and. self%cycles >= drifts_after) limit = small_drift
+      if (self%is_ellipse() .and. self%cycles >= drifts_after) then
+         limit = merge(small_drift, small_narrow_drift, self%contact%is_wide())
+      end if
       may_scale_load = is_end(self%options, self%n) .and. error <= limit
       if (.not. may_scale_load) return
       options = stopping_options(self)
@@ -279,13 +281,13 @@ contains
                                            minval(allowed_errors(options, self%results, self%n, self%m))
    end function may_scale_load
 
-   !> Options of the test of convergence: the algebraic error of an ellipse without solid contact may be larger after many cycles
+   !> Options of the test of convergence: the algebraic error of a wide contact without solid contact may be larger later
    pure function stopping_options(self) result(options)
       class(smooth_contact_t), intent(in) :: self
       type(steady_options_t) :: options
 
       options = self%options
-      if (.not. (self%is_ellipse() .and. self%cycles >= lenient_after) .or. share_counts(options, self%m)) return
+      if (.not. (self%contact%is_wide() .and. self%cycles >= lenient_after) .or. share_counts(options, self%m)) return
       if (options%accuracy >= usual_accuracy) options%accuracy = max(options%accuracy, lenient_accuracy)
    end function stopping_options
 

@@ -355,8 +355,8 @@ class Solver:
         0.1,
         "-",
         "[1e-6, 1]",
-        "required algebraic error as a share of the discretisation error; from 0.1 on an ellipse "
-        "without solid contact needs only 0.5 after eight cycles",
+        "required algebraic error as a share of the discretisation error; from 0.1 on a wide "
+        "contact (kappa > 4) without solid contact needs only 0.5 after eight cycles",
     )
     max_cycles: int = whole(
         30,
