@@ -17,7 +17,7 @@ module ehl_domain
    use ehl_line_domain, only: line_domain_error, line_ends
    use ehl_moes, only: operating_t
    use ehl_scales, only: circle_factor
-   use ehl_wide_inlet, only: gap_of_row => dry_gap, inlet_integral
+   use ehl_wide_inlet, only: gap_of_row => dry_gap, wide_inlet_error
    implicit none (type, external)
    private
    public :: domain_t, flooded_by_default, flooding_layer, needed_domain, domain_error, ratio_error
@@ -38,10 +38,8 @@ module ehl_domain
    real(dp), parameter :: load_by_sides = 0.025_dp, load_by_inlet = 0.05_dp, by_load = 2.0_dp, min_by_load = 0.5_dp, &
                           half_by_load = 8.0_dp, by_inlet = 0.0042_dp, inlet_power = 1.3_dp, thin = 0.75_dp, &
                           minimum_over_central = 1.5_dp
-   !> Flooded border of a wide contact: error of H_c over D s, due to flow across the motion, and over s^2.5, with s the reduced
-   !> pressure at the border over its limit 1/alpha_bar; lengths of short domains. The sum covers 81 of 86 differences
-   !> in docs/evidence/machines/inlets.csv; one of the others is 0.03 %, the rest have stated errors above 2.9 %.
-   real(dp), parameter :: by_side_flow = 0.3_dp, by_inlet_pressure = 0.06_dp, short_widths(3) = [2.5_dp, 3.0_dp, 4.0_dp]
+   !> Lengths of short domains of wide contacts, with the same times powers of 2
+   real(dp), parameter :: short_widths(3) = [2.5_dp, 3.0_dp, 4.0_dp]
    !> P = 0: errors of H_c due to inlet and sides, and the additional error of H_min due to the sides, over q; film below which
    !> the error due to the inlet is larger, and its power of the film
    real(dp), parameter :: of_inlet = 0.46_dp, of_sides = 0.06_dp, of_sides_at_minimum = 0.15_dp, &
@@ -92,8 +90,7 @@ contains
       !> Whether the domain of a flooded wide contact is as short as its error allows
       logical, intent(in) :: short
       type(domain_t) :: domain
-      real(dp) :: error(2), wanted, unit, width, ends(2)
-      integer :: k
+      real(dp) :: ends(2)
 
       if (contact%is_line()) then
          ends = line_ends(contact, point)
@@ -112,29 +109,50 @@ contains
       domain%side = domain%side*sides_over_round(contact)
       domain%inlet = domain%inlet*contact%reach(1)
       domain%outlet = domain%outlet*contact%reach(1)
-      wanted = 4.0_dp
       if (flooded .and. short .and. contact%is_wide()) then
-         k = 0
-         do
-            ! 2.5, 3, 4, 5, 6, 8, ...: grids of 5, 3 and 4 times 2^n intervals have the same mesh sizes
-            width = short_widths(1 + mod(k, 3))*2.0_dp**(k/3)
-            domain = domain_t(-0.5625_dp*width, 0.4375_dp*width, max(2.0_dp, 0.5_dp*width)*sides_over_round(contact))
-            error = domain_error(contact, point, domain, flooded)
-            if (.not. error(1) > tolerance) exit
-            k = k + 1
-         end do
-      else
-         do while (flooded)
-            error = domain_error(contact, point, domain, flooded, rigid=.true.)
-            if (.not. error(1) > tolerance) exit
-            wanted = 1.02_dp*wanted
-            unit = 0.32_dp*10.0_dp**max(0, floor(log10(0.25_dp*wanted)))
-            width = unit*ceiling(wanted/unit)
-            domain = domain_t(-0.625_dp*width, 0.375_dp*width, 0.5_dp*width*sides_over_round(contact))
-         end do
+         domain = shortest_domain(contact, point)
+      else if (flooded) then
+         call widen(contact, point, domain)
       end if
       domain%side = min(domain%side, side_of_wide(contact, point, flooded), side_of_narrow(contact, point))
    end function needed_domain
+
+   !> The shortest domain of a flooded wide contact whose error is tolerated
+   pure function shortest_domain(contact, point) result(domain)
+      class(contact_t), intent(in) :: contact
+      type(operating_t), intent(in) :: point
+      type(domain_t) :: domain
+      real(dp) :: error(2), width
+      integer :: k
+
+      k = 0
+      do
+         ! 2.5, 3, 4, 5, 6, 8, ...: grids of 5, 3 and 4 times 2^n intervals have the same mesh sizes
+         width = short_widths(1 + mod(k, 3))*2.0_dp**(k/3)
+         domain = domain_t(-0.5625_dp*width, 0.4375_dp*width, max(2.0_dp, 0.5_dp*width)*sides_over_round(contact))
+         error = domain_error(contact, point, domain, .true.)
+         if (.not. error(1) > tolerance) return
+         k = k + 1
+      end do
+   end function shortest_domain
+
+   !> Widen the domain of a flooded contact until its error, with rigid bodies beyond the border, is tolerated
+   pure subroutine widen(contact, point, domain)
+      class(contact_t), intent(in) :: contact
+      type(operating_t), intent(in) :: point
+      type(domain_t), intent(inout) :: domain
+      real(dp) :: error(2), wanted, unit, width
+
+      wanted = 4.0_dp
+      do
+         error = domain_error(contact, point, domain, .true., rigid=.true.)
+         if (.not. error(1) > tolerance) return
+         wanted = 1.02_dp*wanted
+         unit = 0.32_dp*10.0_dp**max(0, floor(log10(0.25_dp*wanted)))
+         width = unit*ceiling(wanted/unit)
+         domain = domain_t(-0.625_dp*width, 0.375_dp*width, 0.5_dp*width*sides_over_round(contact))
+      end do
+   end subroutine widen
 
    !> Distance of the sides of a wide contact from the centre; the domain beyond an end affects only the film at that end
    pure real(dp) function side_of_wide(contact, point, flooded) result(side)
@@ -250,20 +268,6 @@ contains
                                                        *(2.0_dp*side_scale(contact, point)/domain%side)**narrow_decay)
       error = error + at_sides
    end function domain_error
-
-   !> Relative error of H_c due to the approximate pressure at the inlet border of a wide contact; 1: unknown
-   pure real(dp) function wide_inlet_error(contact, point, x, film) result(error)
-      class(contact_t), intent(in) :: contact
-      type(operating_t), intent(in) :: point
-      !> Distance of the inlet from the centre; H_c
-      real(dp), intent(in) :: x, film
-      real(dp) :: s
-
-      error = 1.0_dp
-      if (.not. x > 1.0_dp) return
-      s = point%speed_parameter*(1.0_dp + point%alpha_bar)*inlet_integral(x, film + gap_of_row(x, 1.0_dp), film, 1.0_dp)
-      if (s < 1.0_dp) error = by_side_flow*contact%radius_ratio*s + by_inlet_pressure*s**2.5_dp
-   end function wide_inlet_error
 
    !> Thickness of the oil layer that fills the gap downstream of a position X < 0
    pure real(dp) function flooding_layer(contact, point, x) result(layer)

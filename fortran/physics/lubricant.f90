@@ -30,6 +30,7 @@ module ehl_lubricant
       real(dp) :: boundary_limit = 0.0_dp
    contains
       procedure :: log_viscosity
+      procedure :: initial_slope
       procedure :: log_viscosity_at
       procedure :: density
       procedure :: density_at
@@ -77,6 +78,15 @@ contains
       real(dp), intent(out) :: values(:), slope(:)
       call self%viscosity%log_viscosity(p, values, slope)
    end subroutine log_viscosity
+
+   !> d ln(eta/eta0)/dP at P = 0 and the temperature of the inlet [1/p_h]
+   pure real(dp) function initial_slope(self)
+      class(lubricant_t), intent(in) :: self
+      real(dp) :: log_viscosity(1), slope(1)
+
+      call self%log_viscosity([0.0_dp], log_viscosity, slope)
+      initial_slope = slope(1)
+   end function initial_slope
 
    !> ln(eta/eta0) at pressures p and temperature rises above the inlet [K]
    pure subroutine log_viscosity_at(self, p, rise, values)

@@ -12,8 +12,7 @@ module ehl_far_field
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp, pi
    use ehl_level, only: cavity_pressure, level_t
-   use ehl_flow, only: dir_x
-   use ehl_line_inlet, only: set_line_border
+   use ehl_line_inlet, only: row_flow, set_line_border
    use ehl_wide_inlet, only: inlet_integral, reduced_to_real
    implicit none (type, external)
    private
@@ -126,23 +125,20 @@ contains
       type(level_t), intent(inout) :: level
       !> lambda_bar
       real(dp), intent(in) :: speed_parameter
-      real(dp) :: x, y, width, flow, ratio, log_viscosity(1), slope(1)
-      integer :: i, j
+      real(dp) :: x, y, width, ratio, reduced, alpha
+      integer :: j
 
-      call level%lubricant%log_viscosity([0.0_dp], log_viscosity, slope)
+      alpha = level%lubricant%initial_slope()
       associate (grid => level%grid)
-         i = 1 + nint(-grid%x0/grid%hx)
          x = abs(grid%x0)
          do j = 1, grid%ny
             y = grid%y(j)
             width = 1.0_dp - (y/self%half_width)**2
             if (grid%is_border(j) .or. .not. (width > 0.0_dp .and. x**2 > width)) cycle
-            flow = level%mass_content(i, j) - level%flow%eps(i, j, dir_x)*(level%p(i + 1, j) - level%p(i - 1, j)) &
-                   /(2.0_dp*grid%hx)
             ratio = 0.75_dp*hypot(1.0_dp, y/x)*self%around(atan2(abs(y), x))
             ! in the first cycles the flow may exceed the film at the border
-            level%p(1, j) = max(cavity_pressure, reduced_to_real(speed_parameter*ratio* &
-                                                                 inlet_integral(x, level%h(1, j), flow, width), slope(1)))
+            reduced = speed_parameter*ratio*inlet_integral(x, level%h(1, j), row_flow(level, j), width)
+            level%p(1, j) = max(cavity_pressure, reduced_to_real(reduced, alpha))
          end do
       end associate
    end subroutine set_wide_inlet

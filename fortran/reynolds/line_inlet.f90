@@ -10,9 +10,10 @@ module ehl_line_inlet
    use ehl_flow, only: dir_x
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
+   use ehl_wide_inlet, only: reduced_to_real
    implicit none (type, external)
    private
-   public :: set_line_border
+   public :: set_line_border, row_flow
 
    !> Quadrature points
    integer, parameter :: points = 64
@@ -24,12 +25,11 @@ contains
       type(level_t), intent(inout) :: level
       !> Load of the contact, int P dX
       real(dp), intent(in) :: load
-      real(dp) :: x, u, film, increment, pressure, beyond, flow, log_viscosity(1), slope(1)
-      integer :: i, k
+      real(dp) :: x, u, film, increment, pressure, beyond, flow
+      integer :: k
 
       associate (grid => level%grid)
-         i = 1 + nint(-grid%x0/grid%hx)
-         flow = level%mass_content(i, 1) - level%flow%eps(i, 1, dir_x)*(level%p(i + 1, 1) - level%p(i - 1, 1))/(2.0_dp*grid%hx)
+         flow = row_flow(level, 1)
          x = abs(grid%x0)
          pressure = 0.0_dp
          beyond = 0.0_dp
@@ -40,13 +40,22 @@ contains
             pressure = pressure + increment
             beyond = beyond + increment*x*(1.0_dp/u - 1.0_dp)
          end do
-         call level%lubricant%log_viscosity([0.0_dp], log_viscosity, slope)
-         ! the logarithm is not defined if the domain is far too small: see line_domain_error in contact/line_domain.f90
-         if (slope(1)*pressure > 0.0_dp .and. slope(1)*pressure < 1.0_dp) pressure = -log(1.0_dp - slope(1)*pressure)/slope(1)
+         pressure = reduced_to_real(pressure, level%lubricant%initial_slope())
          level%p(1, :) = pressure
          level%p(grid%nx, :) = 0.0_dp
          ! half of the cell at the border lies beyond it
          level%load = load - beyond + 0.5_dp*grid%hx*pressure
       end associate
    end subroutine set_line_border
+
+   !> Flow of row j through X = 0, m - eps dP/dX, scaled as rho H
+   pure real(dp) function row_flow(level, j)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: j
+      integer :: i
+
+      i = 1 + nint(-level%grid%x0/level%grid%hx)
+      row_flow = level%mass_content(i, j) - level%flow%eps(i, j, dir_x)*(level%p(i + 1, j) - level%p(i - 1, j)) &
+                 /(2.0_dp*level%grid%hx)
+   end function row_flow
 end module ehl_line_inlet

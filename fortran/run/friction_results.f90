@@ -144,17 +144,17 @@ contains
       class(plan_t), intent(in) :: plan
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: p(:, :), h(:, :)
-      real(dp) :: width, log_viscosity(1), slope(1)
+      real(dp) :: width, alpha
       integer :: i, j
 
-      call plan%lubricant%log_viscosity([0.0_dp], log_viscosity, slope)
+      alpha = plan%lubricant%initial_slope()
       moment_beyond = 0.0_dp
       i = 1 + nint(-grid%x0/grid%hx)
       do j = 1, grid%ny
          width = 1.0_dp - (grid%y(j)/plan%contact%reach(2))**2
          if (.not. (width > 0.0_dp .and. p(1, j) > 0.0_dp .and. grid%x0**2 > width)) cycle
          moment_beyond = moment_beyond + 0.5_dp*grid%weight(j)/grid%hx* &
-                         inlet_moment(abs(grid%x0), h(1, j), h(i, j), width, p(1, j), slope(1))
+                         inlet_moment(abs(grid%x0), h(1, j), h(i, j), width, p(1, j), alpha)
       end do
    end function moment_beyond
 

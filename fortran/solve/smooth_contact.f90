@@ -38,7 +38,7 @@ module ehl_smooth_contact
    !> spike the load error may stall at 2e-4 while the films hardly change (kappa = 10, L = 26); scaling is allowed only where it
    !> changes the films by a quarter of their allowed errors.
    integer, parameter :: drifts_after = 6
-   real(dp), parameter :: small_drift = 1.0e-3_dp, small_narrow_drift = 1.0e-4_dp
+   real(dp), parameter :: small_drift = 1.0e-3_dp, small_ellipse_drift = 1.0e-4_dp
    !> Cycles of a wide contact on a grid after which its algebraic error may be this share of the discretisation error instead of
    !> the usual one, unless a smaller one is required; the stated errors contain it
    integer, parameter :: lenient_after = 8
@@ -271,7 +271,7 @@ contains
       error = abs(self%m%load_error)
       limit = self%rule%small_load_error
       if (self%is_ellipse() .and. self%cycles >= drifts_after) then
-         limit = merge(small_drift, small_narrow_drift, self%contact%is_wide())
+         limit = merge(small_drift, small_ellipse_drift, self%contact%is_wide())
       end if
       may_scale_load = is_end(self%options, self%n) .and. error <= limit
       if (.not. may_scale_load) return
