@@ -19,7 +19,7 @@ import pyehl
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
-from machine_tables import read, write
+from machine_tables import read, run, write
 from machines import SETTINGS, draw, timed
 
 # As `blunt_spike` in fortran/case/case_grid.f90: alpha p_h up to L = 10 and above; alpha p_h and L
@@ -150,13 +150,5 @@ MEASURE = {"cells": measure_cells, "straight": measure_straight}
 TABLES = cells, straight
 
 
-def main(words: list[str]) -> None:
-    """Run a command."""
-    if words[0] in MEASURE:
-        MEASURE[words[0]]()
-    else:
-        print("\n\n".join("\n".join(f()) for f in TABLES))
-
-
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    run(sys.argv[1], MEASURE, TABLES)

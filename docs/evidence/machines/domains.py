@@ -18,7 +18,7 @@ import pyehl
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
-from machine_tables import read, write
+from machine_tables import read, run, write
 from machines import DISC, SETTINGS, WIDE, draw, draw_narrow, radius_ratio, timed
 
 # kappa, and M and L by R_x
@@ -250,13 +250,5 @@ MEASURE = {
 TABLES = sides, by_border, narrow_sides
 
 
-def main(words: list[str]) -> None:
-    """Run a command."""
-    if words[0] in MEASURE:
-        MEASURE[words[0]]()
-    else:
-        print("\n\n".join("\n".join(f()) for f in TABLES))
-
-
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    run(sys.argv[1], MEASURE, TABLES)

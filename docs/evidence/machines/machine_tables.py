@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -43,3 +43,15 @@ def _value(name: str, text: str) -> float | int | str | None:
         return text or None
     number = float(text)
     return int(number) if number.is_integer() and "." not in text else number
+
+
+def run(
+    command: str,
+    measure: Mapping[str, Callable[[], None]],
+    tables: Iterable[Callable[[], list[str]]],
+) -> None:
+    """Make a table with the command of its name, or print the tables of the documents."""
+    if command in measure:
+        measure[command]()
+    else:
+        print("\n\n".join("\n".join(lines()) for lines in tables))
