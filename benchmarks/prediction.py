@@ -6,6 +6,8 @@ import statistics
 import sys
 import time
 from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
 
 from common import ScipyDeflection, add_list, add_number, columns, hertz, measure, parser, show
 
@@ -25,33 +27,24 @@ MEANING = (
 )
 """Meaning of the columns."""
 
-FRACTAL = {
-    "contact.load": 600.0,
-    "contact.mean_velocity": 0.84,
-    "contact.radius": 0.018,
-    "contact.reduced_modulus": 2.26e11,
-    "lubricant.viscosity": 0.04,
-    "lubricant.pressure_viscosity": 2.2e-8,
-    "surface.kind": "fractal",
-    "surface.rms_height": 0.05e-6,
-    "surface.hurst": 0.8,
-    "surface.pixels": 256,
-    "surface.seed": 1,
+TABLE_1 = Path(__file__).resolve().parents[1] / "cases" / "table1.nml"
+SURFACE = pyehl.Case(TABLE_1)["surface"]
+SECOND = {
+    f"second_surface.{key}": SURFACE[key] for key in ("kind", "rms_height", "hurst", "pixels")
 }
-SECOND = {key.replace("surface", "second_surface"): FRACTAL[key] for key in FRACTAL}
-PROBLEMS = {
-    "fractal": FRACTAL,
-    "fractal-law": FRACTAL | {"lubricant.shear_law": "eyring"},
-    "two-fractals": FRACTAL | SECOND | {"second_surface.seed": 2, "surface.velocity_ratio": 1.05},
+PROBLEMS: dict[str, dict[str, Any]] = {
+    "fractal": {},
+    "fractal-law": {"lubricant.shear_law": "eyring"},
+    "two-fractals": SECOND | {"second_surface.seed": 2, "surface.velocity_ratio": 1.05},
 }
-"""The surface of Table 1 of Zhang et al. 2019, with a shear law, and with a second surface."""
+"""The case of Table 1 of Zhang et al. 2019, with a shear law, and with a second surface."""
 
 
 def prediction_rows(problems: Sequence[str], repeats: int) -> list[Row]:
     """Time each problem some times, alternately with the unit and with the other problems."""
     pressure, step, _, _ = hertz(POINTS)
     deflection = ScipyDeflection(POINTS, POINTS, step, step)
-    cases = {name: pyehl.Case.from_text("", PROBLEMS[name]) for name in problems}
+    cases = {name: pyehl.Case(TABLE_1, PROBLEMS[name]) for name in problems}
     times: dict[str, list[tuple[float, ...]]] = {name: [] for name in problems}
     # the first time of all is without those of imports and tables
     for repeat in range(repeats + 1):
